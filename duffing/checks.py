@@ -1,0 +1,100 @@
+"""Bad input gets a clear error: the parameter's name, its value and what is allowed. Nothing else is here."""
+
+import math
+import sys
+
+import numpy as np
+
+
+def parameter(name, value, allowed="a finite number", lower=None, strict=False):
+    """One parameter of the oscillator, checked: a float, a read-only float array, an mpmath or a sympy number.
+
+    lower is the least value allowed (excluded when strict). A sympy symbol must carry the assumption that
+    proves it (for example negative=True), since a proof is only as good as what it assumes.
+    """
+    if _is_sympy(value):
+        excess = None if lower is None else value - lower
+        holds = value.is_real if excess is None else excess.is_positive if strict else excess.is_nonnegative
+        if not holds:
+            raise ValueError(f"{name} = {value}: must be {allowed}; give the symbol the assumption that says so")
+        return value
+    if _is_mpmath(value):
+        finite, number = math.isfinite(value), value
+    else:
+        number = _float_array(name, value, allowed)
+        finite = np.all(np.isfinite(number))
+    if not finite or (lower is not None and not np.all(number > lower if strict else number >= lower)):
+        raise ValueError(f"{name} = {value}: must be {allowed}")
+    if isinstance(number, np.ndarray) and number.ndim:
+        number = number.copy()
+        number.flags.writeable = False
+        return number
+    return number if _is_mpmath(value) else float(number)
+
+
+def count(name, value, least=1):
+    """A whole number >= least, as int."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer) or value < least:
+        raise ValueError(f"{name} = {value!r}: must be a whole number >= {least}")
+    return int(value)
+
+
+def positive(name, value):
+    """A finite float > 0."""
+    return parameter(name, value, allowed="a finite number > 0", lower=0.0, strict=True)
+
+
+def choice(name, value, allowed):
+    """One of the allowed words."""
+    if value not in allowed:
+        raise ValueError(f"{name} = {value!r}: must be one of {', '.join(map(repr, allowed))}")
+    return value
+
+
+def state(value, shape, name="state"):
+    """States (x, v) of a family, as float array (2, N): from (2,) for all members or (2, *shape)."""
+    array = _float_array(name, value, "two finite numbers (x, v)")
+    size = math.prod(shape)
+    if array.shape == (2,):
+        array = np.repeat(array[:, None], size, axis=1)
+    elif array.shape == (2, *shape):
+        array = array.reshape(2, size)
+    else:
+        raise ValueError(f"{name} has shape {array.shape}: must be (2,) or (2, *family) = {(2, *shape)}")
+    if not np.all(np.isfinite(array)):
+        raise ValueError(f"{name} = {value}: must be finite")
+    return np.ascontiguousarray(array)
+
+
+def times(value, name="t"):
+    """Increasing finite times, as float array (n,), n >= 1."""
+    array = _float_array(name, value, "increasing finite times")
+    if array.ndim != 1 or array.size == 0:
+        raise ValueError(f"{name} has shape {array.shape}: must be a sequence of at least one time")
+    if not np.all(np.isfinite(array)) or not np.all(np.diff(array) > 0):
+        raise ValueError(f"{name} = {value}: must be finite and strictly increasing")
+    return array
+
+
+def double_well(osc):
+    """Raise unless delta < 0 < gamma: only then are there two wells and a homoclinic loop."""
+    for name, value, sign, allowed in (("delta", osc.delta, -1, "< 0"), ("gamma", osc.gamma, 1, "> 0")):
+        signed = sign * value
+        if not (signed.is_positive if _is_sympy(signed) else np.all(signed > 0)):
+            raise ValueError(f"{name} = {value}: must be {allowed} for a double well (homoclinic loops need one)")
+
+
+def _float_array(name, value, allowed):
+    array = np.asarray(value)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} = {value!r}: must be {allowed}")
+    return array.astype(float)
+
+
+def _is_sympy(value):
+    # Asked without importing sympy: a value can only be sympy's when somebody has imported it.
+    return "sympy" in sys.modules and isinstance(value, sys.modules["sympy"].Basic)
+
+
+def _is_mpmath(value):
+    return "mpmath" in sys.modules and isinstance(value, sys.modules["mpmath"].mpf)

@@ -1,0 +1,114 @@
+"""The model, Eq. 1 of the paper: x'' + alpha x'|x'|^(p-1) + delta x + gamma x^3 = mu cos(omega t)."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from . import checks
+from .arithmetic import library, promoted
+
+
+@dataclass(frozen=True, eq=False)
+class Duffing:
+    """The Duffing oscillator with power-law damping; all quantities dimensionless, symbols as in the paper.
+
+    Parameters
+    ----------
+    alpha : damping coefficient, >= 0
+    p : damping exponent, > 0 (1: linear; p -> 0: dry friction)
+    mu : forcing amplitude
+    omega : forcing frequency, > 0
+    delta, gamma : linear and cubic stiffness; delta < 0 < gamma makes the double well
+
+    Any field may be an array: the fields broadcast, and the oscillator is then a *family* of `shape`.
+    For the formulas (not the integrators) a field may also be an mpmath or a sympy number.
+
+    Raises
+    ------
+    ValueError : naming the field, its value and what is allowed.
+    """
+
+    alpha: float | np.ndarray = 0.1
+    p: float | np.ndarray = 1.0
+    mu: float | np.ndarray = 0.0
+    omega: float | np.ndarray = 1.0
+    delta: float | np.ndarray = -1.0
+    gamma: float | np.ndarray = 1.0
+
+    def __post_init__(self):
+        allowed = {
+            "alpha": {"allowed": "a finite number >= 0", "lower": 0},
+            "p": {"allowed": "a finite number > 0", "lower": 0, "strict": True},
+            "omega": {"allowed": "a finite number > 0", "lower": 0, "strict": True},
+        }
+        for name in (field.name for field in fields(self)):
+            checked = checks.parameter(name, getattr(self, name), **allowed.get(name, {}))
+            object.__setattr__(self, name, checked)
+        # One mpmath or sympy field makes all of them so: no formula then meets a rounded float.
+        for name, value in zip(vars(self), promoted(*self._values()), strict=True):
+            object.__setattr__(self, name, value)
+        try:
+            self.shape  # noqa: B018 - asked for its error alone
+        except ValueError:
+            shapes = {f.name: np.shape(getattr(self, f.name)) for f in fields(self)}
+            raise ValueError(f"the fields' shapes {shapes} must broadcast to one family") from None
+
+    def __eq__(self, other):
+        if not isinstance(other, Duffing):
+            return NotImplemented
+        return all(np.array_equal(a, b) for a, b in zip(self._values(), other._values(), strict=True))
+
+    def __hash__(self):
+        return hash(tuple(v.tobytes() if isinstance(v, np.ndarray) else v for v in self._values()))
+
+    @property
+    def shape(self):
+        """Shape of the family: () for a single oscillator."""
+        return np.broadcast_shapes(*map(np.shape, self._values()))
+
+    @property
+    def period(self):
+        """Forcing period 2 pi / omega (time)."""
+        return 2 * library(self.omega).pi / self.omega
+
+    def columns(self):
+        """The six parameters of every member as float array (6, N): alpha, p, mu, omega, delta, gamma."""
+        full = [np.broadcast_to(np.asarray(v, dtype=float), self.shape).ravel() for v in self._values()]
+        return np.array(full)
+
+    def potential(self, x):
+        """V(x) of Eq. 2: delta x^2 / 2 + gamma x^4 / 4 (energy); x broadcasts against the family."""
+        return self.delta * x**2 / 2 + self.gamma * x**4 / 4
+
+    def force(self, x, t):
+        """Potential force F_x of Eq. 2 and forcing: -delta x - gamma x^3 + mu cos(omega t)."""
+        return -self.delta * x - self.gamma * x**3 + self.mu * library(t, self.omega).cos(self.omega * t)
+
+    def damping(self, v):
+        """dpt(v) of Eq. 3: alpha v |v|^(p-1), written alpha sign(v) |v|^p, which is finite at v = 0 for every p > 0."""
+        return self.alpha * library(v, self.p).sign(v) * abs(v) ** self.p
+
+    def acceleration(self, x, v, t):
+        """Right-hand side of Eq. 5 for v: force less damping."""
+        return self.force(x, t) - self.damping(v)
+
+    def energy(self, x, v):
+        """H0 of Eq. 4: v^2 / 2 + V(x)."""
+        return v**2 / 2 + self.potential(x)
+
+    def dimensionless(self):
+        """The same motion with delta = -1, gamma = 1: x = sqrt(-delta/gamma) X, t = tau / sqrt(-delta).
+
+        Raises ValueError unless delta < 0 < gamma.
+        """
+        checks.double_well(self)
+        stiffness = -self.delta
+        return Duffing(
+            alpha=self.alpha * stiffness ** (self.p - 1.5) * self.gamma ** ((1 - self.p) / 2),
+            p=self.p,
+            mu=self.mu * self.gamma**0.5 * stiffness**-1.5,
+            omega=self.omega * stiffness**-0.5,
+        )
+
+    def _values(self):
+        return tuple(getattr(self, field.name) for field in fields(self))
