@@ -57,7 +57,7 @@ def state(value, shape, name="state"):
     size = math.prod(shape)
     if array.shape == (2,):
         array = np.repeat(array[:, None], size, axis=1)
-    elif array.shape == (2, *shape):
+    elif array.shape in ((2, *shape), (2, size)):  # also flat, as the integrators pass it on
         array = array.reshape(2, size)
     else:
         raise ValueError(f"{name} has shape {array.shape}: must be (2,) or (2, *family) = {(2, *shape)}")

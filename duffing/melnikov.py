@@ -32,7 +32,7 @@ def homoclinic_orbit(osc, t, side=1):
 
 
 def damping_integral(osc):
-    """Integral of |v*|^(p+1) over the loop, closed form: the energy that damping takes at alpha = 1; shape of the family.
+    """Integral of |v*|^(p+1) over the loop, closed form (the energy that damping takes at alpha = 1).
 
     (2/gamma)^((p+1)/2) (-delta)^(p+1/2) B((p+2)/2, (p+1)/2): with s = tanh(sqrt(-delta) t) it is a Beta function.
     """

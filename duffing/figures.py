@@ -1,0 +1,161 @@
+"""The paper's figures: arrays in, a matplotlib Figure out. Nothing is computed here.
+
+One function a figure, named as in the paper. Colours are Okabe and Ito's, told apart by every colour vision; each
+value of p keeps its colour throughout the book, and lines that meet differ in dash as well.
+"""
+
+from functools import wraps
+from pathlib import Path
+
+import matplotlib.style
+import numpy as np
+from matplotlib.figure import Figure
+
+STYLE = Path(__file__).with_name("paper.mplstyle")
+BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE, GREY = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#767676",
+)  # fmt: skip
+P_COLOUR = {0.1: VERMILION, 0.3: PURPLE, 0.5: ORANGE, 0.75: SKY, 1.0: BLUE, 1.5: SKY, 2.0: GREEN, 3.0: BLACK}
+P_DASH = {
+    0.1: "-",
+    0.3: (0, (5, 1, 1, 1)),
+    0.5: (0, (6, 2)),
+    0.75: "--",
+    1.0: "-",
+    1.5: (0, (1, 1)),
+    2.0: "-.",
+    3.0: ":",
+}
+TRANSIENT, STEADY = SKY, VERMILION
+STABLE, UNSTABLE = BLUE, VERMILION
+
+
+def styled(draw):
+    """Draw with the book's style, whatever the caller's matplotlib settings are."""
+
+    @wraps(draw)
+    def inside(*args, **kwargs):
+        with matplotlib.style.context(["default", STYLE]):
+            return draw(*args, **kwargs)
+
+    return inside
+
+
+def panel(xlabel, ylabel, **figure):
+    """A figure with one set of labelled axes, outside pyplot so that a notebook shows it once and none leaks."""
+    fig = Figure(**figure)
+    axes = fig.subplots()
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    return fig, axes
+
+
+def line_of(p):
+    """Colour, dash and label of the exponent p."""
+    return {"color": P_COLOUR.get(p, GREY), "linestyle": P_DASH.get(p, "-"), "label": f"$p = {p:g}$"}
+
+
+@styled
+def fig1a(x, potential):
+    """The double-well potential V(x), Eq. 2."""
+    fig, axes = panel("displacement $x$ (dimensionless)", "potential $V$ (dimensionless)")
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.plot(x, potential, color=BLACK)
+    axes.set_xlim(x[0], x[-1])
+    return fig
+
+
+@styled
+def fig1b(v, p, damping):
+    """dpt(v)/alpha, Eq. 3, one curve for each exponent: damping (len(p), len(v))."""
+    fig, axes = panel("velocity $v$ (dimensionless)", r"damping dpt$(v)/\alpha$ (dimensionless)")
+    for exponent, curve in zip(p, damping, strict=True):
+        axes.plot(v, curve, **line_of(exponent))
+    axes.set_xlim(v[0], v[-1])
+    axes.legend()
+    return fig
+
+
+@styled
+def fig2(loops, cases):
+    """Homoclinic loops (a list of (x, v)) under the manifolds of each case: (title, stable curves, unstable curves)."""
+    fig = Figure(figsize=(6.8, 3.9))
+    for number, (axes, (title, stable, unstable)) in enumerate(
+        zip(fig.subplots(1, len(cases), sharey=True), cases, strict=True)
+    ):
+        for x, v in loops:
+            axes.plot(x, v, color=GREY, linewidth=3.5, alpha=0.5, label="homoclinic orbit, Eq. 8")
+        for curves, colour, dash, label in ((stable, STABLE, "--", "$W^S$"), (unstable, UNSTABLE, "-", "$W^U$")):
+            for x, v in curves:
+                axes.plot(x, v, color=colour, linestyle=dash, linewidth=1.1, label=label)
+        axes.set(title=title, xlabel="displacement $x$ (dimensionless)", xlim=(-1.75, 1.75), ylim=(-1.05, 1.05))
+        if number == 0:
+            axes.set_ylabel("velocity $v$ (dimensionless)")
+            labels = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+            fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)
+    return fig
+
+
+@styled
+def fig3a(omega, p, ratio):
+    """mu_c/alpha versus omega, Eq. 13, one curve for each exponent: ratio (len(p), len(omega))."""
+    fig, axes = panel(r"forcing frequency $\omega$ (dimensionless)", r"$\mu_c/\alpha$ (dimensionless)")
+    for exponent, curve in zip(p, ratio, strict=True):
+        axes.plot(omega, curve, **line_of(exponent))
+    axes.set(xlim=(omega[0], omega[-1]), ylim=(0, None))
+    axes.legend()
+    return fig
+
+
+@styled
+def fig3b(p, mu_c, p_onset, onset):
+    """mu_c versus p, Eq. 13, with the numerical onsets lambda_1 > 0.1 as circles; exponents without onset are left out."""
+    fig, axes = panel("damping exponent $p$", r"forcing amplitude $\mu$ (dimensionless)")
+    axes.plot(p, mu_c, color=BLACK, label=r"critical amplitude $\mu_c$, Eq. 13")
+    found = np.isfinite(onset)
+    axes.plot(p_onset[found], onset[found], "o", color=VERMILION, fillstyle="none", label=r"onset of $\lambda_1 > 0.1$")
+    axes.set(xlim=(0, p[-1]), ylim=(0, None))
+    axes.legend()
+    return fig
+
+
+@styled
+def fig4(mu, exponent, p, threshold):
+    """lambda_1 versus mu with the threshold line (Fig. 4a: p = 0.1, Fig. 4b: p = 1)."""
+    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)")
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0, label=rf"threshold $\lambda_1 = {threshold:g}$")
+    axes.plot(mu, exponent, color=P_COLOUR.get(p, GREY), linewidth=1.1, label=f"$p = {p:g}$")
+    axes.set_xlim(mu[0], mu[-1])
+    axes.legend(loc="lower left")
+    return fig
+
+
+@styled
+def fig5(transient, steady, transient_points, steady_points):
+    """Phase portrait: paths (x, v) as lines, stroboscopic points as dots, before and after the settling time.
+
+    transient and transient_points may be None (Fig. 5a shows the late motion alone).
+    """
+    fig, axes = panel("displacement $x$ (dimensionless)", "velocity $v$ (dimensionless)", figsize=(6.8, 4.6))
+    shown = [(transient, transient_points, TRANSIENT, "before"), (steady, steady_points, STEADY, "after")]
+    for layer, (path, points, colour, when) in enumerate(shown):
+        if path is None:
+            continue
+        width = 0.5 if layer == 0 else 0.9
+        axes.plot(*path, color=colour, linewidth=width, zorder=2 + 2 * layer, label=f"path {when} $t = 1200$")
+        axes.plot(*points, "o", color=BLACK if layer else BLUE, markersize=3.2, zorder=3 + 2 * layer,
+                  label=f"stroboscopic points {when}")  # fmt: skip
+    fig.legend(loc="outside upper center", ncols=2)
+    return fig
+
+
+@styled
+def fig6(t, x, settled):
+    """Time history in the colours of Fig. 5, which change at the time `settled`."""
+    fig, axes = panel("time $t$ (dimensionless)", "displacement $x$ (dimensionless)", figsize=(6.8, 3.0))
+    for part, colour, label in ((t <= settled, TRANSIENT, "before"), (t >= settled, STEADY, "after")):
+        axes.plot(t[part], x[part], color=colour, linewidth=0.6, label=f"{label} $t = {settled:g}$")
+    axes.axvline(settled, color=GREY, linestyle="--", linewidth=0.8)
+    axes.set_xlim(t[0], t[-1])
+    fig.legend(loc="outside upper center", ncols=2)
+    return fig

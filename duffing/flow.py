@@ -1,0 +1,44 @@
+"""Solutions of the equation of motion: chooses the integrator, and is what the other modules call."""
+
+import numpy as np
+
+from . import checks, friction, rk4
+
+METHODS = ("auto", "rk4", "friction")
+
+
+def integrate(osc, state, t, tangents=0, method="auto", **options):
+    """Carry the family from its states at t[0] through the times t, with 0, 1 or 2 tangent vectors.
+
+    osc : Duffing, a family of N members
+    state : (2,) for all members or (2, *family)
+    t : (n,) times for all members or (n, N), one column a member
+    method : "rk4", the paper's algorithm (option steps_per_period=500); "friction", the adaptive integrator of order
+        eight, in friction time where p < 1 and in physical time where p >= 1 (options rtol, atol); "auto" is "friction"
+    options : passed on to the integrator
+
+    Returns an `Orbit`. Raises ValueError for invalid input, DivergedError or ConvergenceError where there is no answer.
+    """
+    checks.choice("method", method, METHODS)
+    integrator = rk4 if method == "rk4" else friction
+    return integrator.integrate(osc, state, t, tangents=tangents, **options)
+
+
+def trajectory(osc, state, t, method="auto", **options):
+    """States at the increasing times t: array (2, len(t), *family) of x and v; the state given is the one at t[0].
+
+    state : (2,) for all members or (2, *family); method, options, errors : as for `integrate`.
+    """
+    t = checks.times(t)
+    orbit = integrate(osc, checks.state(state, osc.shape), t, method=method, **options)
+    return orbit.states.reshape(2, t.size, *osc.shape)
+
+
+def stroboscopic_times(osc, periods, transient=0, phase=0.0):
+    """Times (periods + 1, N) at which each member's forcing has the phase, from the end of the transient on.
+
+    transient, periods : whole numbers of forcing periods; phase : omega t modulo 2 pi (radian)
+    """
+    cycles = checks.count("transient", transient, least=0) + np.arange(checks.count("periods", periods) + 1)
+    phase = checks.parameter("phase", phase)
+    return (phase + 2 * np.pi * cycles)[:, None] / osc.columns()[3]

@@ -1,0 +1,25 @@
+"""The Poincare section: the stroboscopic map of one forcing period at a stated phase."""
+
+import numpy as np
+
+from . import checks
+from .flow import integrate, stroboscopic_times
+
+
+def poincare_section(osc, state, periods, transient=0, phase=0.0, method="auto", **options):
+    """Stroboscopic points of orbits that start in `state` at t = 0: array (2, periods, *family) of x and v.
+
+    periods, transient : numbers of points kept and, before them, thrown away; the point of number k = 1, 2, ... of
+        all of them is the state at t = (phase + 2 pi k) / omega, so that with phase = 0 it is the k-th iterate
+    phase : forcing phase omega t (radian) in [0, 2 pi)
+    method, options, errors : as for `duffing.flow.integrate`
+    """
+    state = checks.state(state, osc.shape)
+    phase = checks.parameter("phase", phase)
+    if not 0 <= phase < 2 * np.pi:
+        raise ValueError(f"phase = {phase}: must be in [0, 2 pi)")
+    t = stroboscopic_times(osc, periods, transient, phase)
+    if np.any(t[0] > 0):  # the way from t = 0 to the first point before the section
+        t = np.concatenate([np.zeros((1, t.shape[1])), t])
+    orbit = integrate(osc, state, t, method=method, **options)
+    return orbit.states[:, -periods:].reshape(2, periods, *osc.shape)

@@ -1,0 +1,127 @@
+"""The arrays behind the paper's figures, computed by the paper's own algorithm with the parameters of `paper`.
+
+Every function takes an oscillator, the paper's unless another is given. Results are kept for the process, since several
+chapters and the ledger look at the same curves.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from . import paper
+from .flow import trajectory
+from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
+from .melnikov import critical_amplitude
+from .poincare import poincare_section
+
+
+def mu_grid(step=0.001, last=0.5):
+    """Forcing amplitudes 0, step, ... last: decimals as printed, so that mu = 0.27 is on the grid."""
+    return np.round(np.arange(round(last / step) + 1) * step, 6)
+
+
+@lru_cache
+def exponent_curve(p, step=0.001, last=0.5, osc=paper.OSCILLATOR, d0=None, steps_per_period=paper.STEPS_PER_PERIOD):
+    """lambda_1 versus mu as in Fig. 4: (mu, lambda_1), each (n,), with the start anew for every mu and no transient cut.
+
+    d0 : None for the tangent vector, else the distance of the two trajectories
+    """
+    mu = mu_grid(step, last)
+    family = replace(osc, p=p, mu=mu)
+    options = {"periods": paper.PERIODS, "transient": 0, "steps_per_period": steps_per_period}
+    if d0 is None:
+        spectrum = lyapunov_spectrum(family, paper.START, k=1, method="rk4", **options)
+    else:
+        spectrum = two_trajectory_exponent(family, paper.START, d0=d0, **options)
+    return mu, spectrum.exponents[0]
+
+
+@lru_cache
+def onsets(p, step=0.001, last=0.5, osc=paper.OSCILLATOR):
+    """The least mu of the grid with lambda_1 above the paper's threshold, for each p of the tuple: (len(p),).
+
+    nan where no mu of the grid reaches the threshold: "not found" is an answer, and the figure leaves it out.
+    """
+    mu = mu_grid(step, last)
+    family = replace(osc, p=np.array(p)[:, None], mu=mu)
+    exponents = lyapunov_spectrum(family, paper.START, paper.PERIODS, 0, k=1, method="rk4").exponents[0]
+    chaotic = exponents > paper.THRESHOLD
+    return np.where(chaotic.any(axis=1), mu[chaotic.argmax(axis=1)], np.nan)
+
+
+class Motion(NamedTuple):
+    """t (n,); path (2, n): x and v; points (2, periods): the stroboscopic points at t = 2 pi k / omega, k = 1, 2, ..."""
+
+    t: np.ndarray
+    path: np.ndarray
+    points: np.ndarray
+
+    def part(self, first, last, period):
+        """Path and points with first <= t <= last."""
+        strobe = period * np.arange(1, self.points.shape[1] + 1)
+        inside, struck = (self.t >= first) & (self.t <= last), (strobe >= first) & (strobe <= last)
+        return self.path[:, inside], self.points[:, struck]
+
+
+@lru_cache
+def motion(mu, osc=paper.OSCILLATOR, end=paper.END, every=5):
+    """The motion of Fig. 5 and 6 at the forcing mu, from the paper's start to t = end, every fifth Runge-Kutta step kept."""
+    osc = replace(osc, mu=mu)
+    step = osc.period / paper.STEPS_PER_PERIOD
+    t = np.arange(0, int(end / step) + 1, every) * step
+    path = trajectory(osc, paper.START, t, method="rk4", steps_per_period=paper.STEPS_PER_PERIOD)
+    points = poincare_section(osc, paper.START, int(end / osc.period), method="rk4")
+    return Motion(t, path, points)
+
+
+def critical_ratio(p, omega, osc=paper.OSCILLATOR):
+    """mu_c / alpha of Eq. 13 for Fig. 3a: (len(p), len(omega))."""
+    family = replace(osc, p=np.asarray(p)[:, None], omega=np.asarray(omega))
+    return critical_amplitude(family) / family.alpha
+
+
+class Scan(NamedTuple):
+    """lambda_1 of the paper's algorithm over candidate parameters: alpha (a,), omega (w,), mu (m,), exponents (a, w, m);
+    amplitude (a, w): half the range of x over the last ten periods at MU_REGULAR; wells (a, w): number of wells visited
+    by those points."""
+
+    alpha: np.ndarray
+    omega: np.ndarray
+    mu: np.ndarray
+    exponents: np.ndarray
+    amplitude: np.ndarray
+    wells: np.ndarray
+
+
+@lru_cache
+def parameter_scan(p=paper.P_SMALL, alphas=(0.04, 0.40, 0.02), omegas=(0.5, 1.8, 0.1), osc=paper.OSCILLATOR):
+    """What the text tells of Fig. 4a to 6, computed for each candidate (alpha, omega): first, last, step of each."""
+    alpha, omega = (np.round(np.arange(a, b + c / 2, c), 6) for a, b, c in (alphas, omegas))
+    mu = np.round(np.arange(0.20, 0.2701, 0.01), 3)
+    family = replace(osc, p=p, alpha=alpha[:, None, None], omega=omega[:, None], mu=mu)
+    exponents = lyapunov_spectrum(family, paper.START, paper.PERIODS, 0, k=1, method="rk4").exponents[0]
+    regular = replace(osc, p=p, alpha=alpha[:, None], omega=omega, mu=paper.MU_REGULAR)
+    late = poincare_section(regular, paper.START, 10, transient=paper.PERIODS - 10, method="rk4")
+    # Ten phases of the last period: the range of x, not of its stroboscopic points, is what Fig. 6b shows.
+    phases = [poincare_section(regular, paper.START, 1, paper.PERIODS - 1, phase=2 * np.pi * k / 10, method="rk4")[0, 0]
+              for k in range(10)]  # fmt: skip
+    x = np.concatenate([late[0], np.array(phases)])
+    wells = (x > 0).any(axis=0).astype(int) + (x < 0).any(axis=0)
+    return Scan(alpha, omega, mu, exponents, np.ptp(x, axis=0) / 2, wells)
+
+
+def survivors(scan):
+    """Which (alpha, omega) agree with the text on each count: dict of boolean arrays (a, w), the last one all together.
+
+    The quoted exponent is to be met within 0.03, about twice the statistical error of an average over the paper's time.
+    """
+    chaotic = scan.exponents > paper.THRESHOLD
+    criteria = {
+        "chaos at 0.27": chaotic[..., -1],
+        "no chaos from 0.20 to 0.26": ~chaotic[..., :-1].any(axis=-1),
+        "exponent at 0.27": np.abs(scan.exponents[..., -1] - paper.LAMBDA_CHAOTIC) < 0.03,
+        "one well at 0.25": scan.wells == 1,
+    }
+    return {**criteria, "all": np.logical_and.reduce(list(criteria.values()))}
