@@ -50,9 +50,9 @@ def advance(q, y, h, tangents, K, new):
 @compiled
 def error(q, y, new, h, K, rtol, atol):
     """Estimated error of the step, 1 = just tolerable: of x and v at fixed time, relative to the state's length."""
-    phi = 1.0 if q[M] == 1.0 else K[12, T] / (1 - K[12, T])  # K[12, T] = phi / (1 + phi)
+    phi = 1.0 if q[M] == 1.0 else q[M] * K[12, T] / (1 - K[12, T])  # K[12, T] = phi / (m + phi)
     v = phi * new[W] / q[M]
-    acceleration = K[12, W] if q[M] == 1.0 else K[12, W] * (1 + phi)
+    acceleration = K[12, W] if q[M] == 1.0 else K[12, W] * (q[M] + phi)
     scale = atol + rtol * math.hypot(new[X], v)
     squares5, squares3 = 0.0, 0.0
     for order in (5, 3):
@@ -78,12 +78,14 @@ def land(q, y, h, tangents, component, target, K, new):
     """Repeat the step with the length h* in (0, h] that makes y[component] = target (it lies between y and new).
 
     Newton's iteration in the step's length, kept inside a bracket. The last, negligible part of the way is gone by the
-    tangent to the orbit. Returns h* and the number of rates evaluated; new and K[12] are those at the target.
+    tangent to the orbit. Returns the number of rates evaluated; new and K[12] are those at the target.
     """
     near, far = 0.0, h
     length = _first_guess(y[component] - target, K[0, component], new[component] - target, K[12, component], h)
-    for tries in range(1, 60):
+    evaluations = 1
+    for _ in range(60):
         advance(q, y, length, tangents, K, new)
+        evaluations += 12
         miss = target - new[component]
         slope = K[12, component]
         if miss * (target - y[component]) > 0:
@@ -104,7 +106,7 @@ def land(q, y, h, tangents, component, target, K, new):
         length = trial
     new[component] = target
     rate(q, new, tangents, K[12])
-    return length, 12 * tries + 1
+    return evaluations
 
 
 @compiled

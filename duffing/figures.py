@@ -4,14 +4,10 @@ One function a figure, named as in the paper. Colours are Okabe and Ito's, told 
 value of p keeps its colour throughout the book, and lines that meet differ in dash as well.
 """
 
-from functools import wraps
-from pathlib import Path
-
-import matplotlib.style
 import numpy as np
-from matplotlib.figure import Figure
 
-STYLE = Path(__file__).with_name("paper.mplstyle")
+from .page_figure import PageFigure, styled
+
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE, GREY = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#767676",
 )  # fmt: skip
@@ -30,20 +26,9 @@ TRANSIENT, STEADY = SKY, VERMILION
 STABLE, UNSTABLE = BLUE, VERMILION
 
 
-def styled(draw):
-    """Draw with the book's style, whatever the caller's matplotlib settings are."""
-
-    @wraps(draw)
-    def inside(*args, **kwargs):
-        with matplotlib.style.context(["default", STYLE]):
-            return draw(*args, **kwargs)
-
-    return inside
-
-
 def panel(xlabel, ylabel, **figure):
     """A figure with one set of labelled axes, outside pyplot so that a notebook shows it once and none leaks."""
-    fig = Figure(**figure)
+    fig = PageFigure(**figure)
     axes = fig.subplots()
     axes.set(xlabel=xlabel, ylabel=ylabel)
     return fig, axes
@@ -78,7 +63,7 @@ def fig1b(v, p, damping):
 @styled
 def fig2(loops, cases):
     """Homoclinic loops (a list of (x, v)) under the manifolds of each case: (title, stable curves, unstable curves)."""
-    fig = Figure(figsize=(6.8, 3.9))
+    fig = PageFigure(figsize=(6.8, 3.9))
     for number, (axes, (title, stable, unstable)) in enumerate(
         zip(fig.subplots(1, len(cases), sharey=True), cases, strict=True)
     ):
@@ -108,7 +93,7 @@ def fig3a(omega, p, ratio):
 
 @styled
 def fig3b(p, mu_c, p_onset, onset):
-    """mu_c versus p, Eq. 13, with the numerical onsets lambda_1 > 0.1 as circles; exponents without onset are left out."""
+    """mu_c versus p, Eq. 13, with the numerical onsets lambda_1 > 0.1 as circles; none found, none drawn."""
     fig, axes = panel("damping exponent $p$", r"forcing amplitude $\mu$ (dimensionless)")
     axes.plot(p, mu_c, color=BLACK, label=r"critical amplitude $\mu_c$, Eq. 13")
     found = np.isfinite(onset)
@@ -158,4 +143,35 @@ def fig6(t, x, settled):
     axes.axvline(settled, color=GREY, linestyle="--", linewidth=0.8)
     axes.set_xlim(t[0], t[-1])
     fig.legend(loc="outside upper center", ncols=2)
+    return fig
+
+
+@styled
+def scan_map(alpha, omega, criteria, chosen):
+    """Which (alpha, omega) agree with the text, one small map for each criterion: dict of boolean arrays (a, w)."""
+    fig = PageFigure(figsize=(6.8, 5.2))
+    panels = fig.subplots(2, -(-len(criteria) // 2), sharex=True, sharey=True)
+    for axes, (name, agrees) in zip(panels.flat, criteria.items(), strict=False):
+        i, j = np.nonzero(agrees)
+        axes.plot(omega[j], alpha[i], "s", color=BLUE, markersize=4)
+        axes.plot(*chosen[::-1], "o", color=VERMILION, fillstyle="none", markersize=12, markeredgewidth=1.8)
+        axes.set_title(f"{name}: {agrees.sum()} of {agrees.size}", fontsize=10)
+        axes.set(xlim=(omega[0] - 0.05, omega[-1] + 0.05), ylim=(alpha[0] - 0.02, alpha[-1] + 0.02))
+    for axes in panels.flat[len(criteria) :]:
+        axes.set_axis_off()
+    fig.supxlabel(r"forcing frequency $\omega$ (dimensionless)", fontsize=11)
+    fig.supylabel(r"damping coefficient $\alpha$ (dimensionless)", fontsize=11)
+    return fig
+
+
+@styled
+def headline(p, mu_c, p_tangency, tangency, p_onset, onset):
+    """Fig. 3b with the computed homoclinic tangencies on the line."""
+    fig, axes = panel("damping exponent $p$", r"forcing amplitude $\mu$ (dimensionless)")
+    axes.plot(p, mu_c, color=BLACK, label=r"critical amplitude $\mu_c$, Eq. 13")
+    axes.plot(p_tangency, tangency, "x", color=BLUE, markersize=7, markeredgewidth=2, label="homoclinic tangency, computed")
+    found = np.isfinite(onset)
+    axes.plot(p_onset[found], onset[found], "o", color=VERMILION, fillstyle="none", label=r"onset of $\lambda_1 > 0.1$")
+    axes.set(xlim=(0, p[-1]), ylim=(0, None))
+    axes.legend()
     return fig

@@ -1,116 +1,300 @@
-"""The friction-time integrator: every p > 0, forward and backward, both tangent vectors, creep included."""
+"""The accurate integrator: every p > 0, forward and backward, with both tangent vectors, creep included.
+
+Front end of `follow`, which steps in friction time (`friction_time`) with an embedded pair of order eight
+(`dop853`) and in creeps with an implicit method of order nine (`creep`).
+"""
 
 import math
 import os
 from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
 
 import numpy as np
 
 from . import checks
-from .dop853 import STAGES, advance, error, land
+from .creep import at_rest
+from .dop853 import STAGES
 from .errors import ConvergenceError, DivergedError
-from .friction_time import ETA1, ETA2, OMEGA, START, S, T, W, X, XI1, XI2, compiled, parameters, rate, variable, velocity
+from .follow import (
+    CREEP,
+    DIVERGED,
+    DONE,
+    EVALUATIONS,
+    LOG1,
+    LOG2,
+    MOVE,
+    NO_CROSSING,
+    PASSAGES,
+    PAST_UNKNOWN,
+    SHEAR,
+    STUCK,
+    TOO_MANY_STEPS,
+    follow,
+)
+from .friction_time import (
+    ETA1,
+    ETA2,
+    OMEGA,
+    START,
+    XI1,
+    M,
+    N,
+    P,
+    S,
+    T,
+    W,
+    X,
+    compiled,
+    force,
+    parameters,
+    variable,
+    velocity,
+)
 from .orbit import Orbit
 
-_DONE, _DIVERGED, _TOO_MANY_STEPS = range(3)
-_ESCAPED = 1e60  # |x| from which only a solution that becomes infinite in finite time comes
-_BLOCK = 8
+_BLOCK = 4  # trajectories a task: they differ in cost, so blocks are small
+_FAILURES = {
+    DIVERGED: (DivergedError, "the solution leaves every bound"),
+    TOO_MANY_STEPS: (ConvergenceError, "more than max_steps steps were needed"),
+    PAST_UNKNOWN: (
+        ConvergenceError,
+        "backward in time the solution stays on the slow branch of a creep, where every past ends: it has none",
+    ),
+    STUCK: (ConvergenceError, "the velocity passes through zero in a creep, where no turning point is distinguished"),
+    NO_CROSSING: (ConvergenceError, "no turning point was found in time"),
+}
+
+
+class TurningPoint(NamedTuple):
+    """First crossings of v = 0 by N trajectories.
+
+    t, x : (N,) time and position
+    dt, dx : (2, N) their derivatives by the start's x and v (at fixed starting time), or None
+    """
+
+    t: np.ndarray
+    x: np.ndarray
+    dt: np.ndarray | None = None
+    dx: np.ndarray | None = None
 
 
 def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_000, threads=None):
-    n = np.shape(t)[0]
-    q = parameters(osc.columns())
-    size = q.shape[1]
-    start = checks.state(state, osc.shape)
-    times = np.ascontiguousarray(np.broadcast_to(np.asarray(t, float).reshape(n, -1), (n, size)))
-    states = np.empty((2, n, size))
-    logs = np.zeros((3, n - 1, size))
-    angles = np.zeros((n, size))
-    friction_time = np.zeros((n - 1, size))
-    evaluations = np.zeros(size, dtype=np.int64)
+    """Solutions at the times t, each step's error of (x, v) below atol + rtol |(x, v)|.
+
+    Parameters
+    ----------
+    osc : Duffing, a single oscillator or a family of N members, any p > 0
+    state : (2,) or (2, *family) or (2, N), (x, v) at t[0]
+    t : (n,) for all members or (n, N), increasing or decreasing times, met exactly
+    tangents : 0, 1 or 2 tangent vectors; growth and propagators are of each interval. The state does not depend on it.
+    max_steps : for each interval
+    threads : at most so many at once (default: the processors); the result is the same to the last bit
+
+    Returns
+    -------
+    Orbit : with friction_time (n - 1, N), annihilations (n - 1, N), evaluations (N,) of the force. Where a creep
+        through zero force annihilates a tangent direction (p <= 1/2), friction_time is infinite, growth[1] = -inf.
+
+    Raises
+    ------
+    ValueError : for invalid input
+    DivergedError : when a solution leaves every bound
+    ConvergenceError : when max_steps do not suffice, or backward in time where a creep has erased the past
+    """
+    columns, state, size = _members(osc, state, osc.shape)
+    t = _times(t, size)
+    tangents = checks.count("tangents", tangents, least=0)
+    if tangents > 2:
+        raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
+    rtol, atol, max_steps = _tolerances(rtol, atol, max_steps)
+
+    n = t.shape[1]
+    q = parameters(columns)
+    states = np.empty((size, 2, n))
+    states[:, :, 0] = state.T
+    frames = np.zeros((size, 3, n - 1))
+    angles = np.zeros((size, n))
+    friction_time = np.zeros((size, n - 1))
+    annihilations = np.zeros((size, n - 1), dtype=np.int64)
+    evaluations, status = np.zeros(size, dtype=np.int64), np.zeros(size, dtype=np.int64)
+
+    def run(part):
+        _orbits(
+            q[part], t[part], tangents, rtol, atol, max_steps,
+            states[part], frames[part], angles[part], friction_time[part], annihilations[part],
+            evaluations[part], status[part],
+        )  # fmt: skip
+
+    _parallel(run, size, threads)
+    _raise(status, columns)
+    frames = np.moveaxis(frames, 0, -1)
+    return Orbit(
+        np.moveaxis(states, 0, -1),
+        frames[:tangents],
+        _propagators(frames, angles.T) if tangents == 2 else None,
+        friction_time.T,
+        annihilations.T,
+        evaluations,
+    )
+
+
+def to_turning_point(
+    osc, state, t0, direction=1, beyond=-math.inf, within=None, derivatives=False, rtol=1e-11, atol=1e-13,
+    max_steps=100_000, threads=None,
+):  # fmt: skip
+    """First crossing of v = 0 with x > beyond after (direction = 1) or before (-1) the start, landed on exactly.
+
+    Parameters
+    ----------
+    osc : Duffing, one for all starts or a family
+    state : (2,) or (2, *family), for a single oscillator also (2, N): the starts
+    t0 : the time of the starts, one for all or (N,) each its own
+    within : the longest time to look for it (default: 50 forcing periods)
+    derivatives : whether to return dt and dx, too. To first order x does not depend on when it is met, since v = 0
+        there: dx is the first row of the tangent map, dt minus the second divided by the force.
+
+    Returns a `TurningPoint`; times of the starts themselves at v = 0 do not count.
+
+    Raises ValueError for invalid input, DivergedError, ConvergenceError (none found in time, or it lies in a creep).
+    """
+    state = np.asarray(state)
+    shape = osc.shape if osc.shape or state.ndim < 2 else state.shape[1:]
+    columns, state, size = _members(osc, state, shape)
+    t0 = np.asarray(checks.parameter("t0", t0, allowed="finite times"))
+    if t0.size not in (1, size):
+        raise ValueError(f"t0 has shape {t0.shape}: must be one time or {size}")
+    t0 = np.broadcast_to(t0.ravel(), size)
+    if direction not in (1, -1):
+        raise ValueError(f"direction = {direction!r}: must be 1 or -1")
+    rtol, atol, max_steps = _tolerances(rtol, atol, max_steps)
+    longest = np.broadcast_to(
+        100 * np.pi / columns[OMEGA] if within is None else checks.positive("within", within), size
+    )
+
+    q = parameters(columns)
+    q[:, START] = t0
+    found, derivative = np.zeros((2, size)), np.zeros((2, 2, size))
     status = np.zeros(size, dtype=np.int64)
-    states[:, 0] = start
-    for i in range(size):
-        status[i] = _follow(q[:, i].copy(), times[:, i].copy(), tangents, rtol, atol, max_steps, states[:, :, i], logs[:, :, i], angles[:, i], friction_time[:, i], evaluations[i:i+1])
-    if (status == _DIVERGED).any():
-        raise DivergedError(f"diverged {status}")
-    if (status == _TOO_MANY_STEPS).any():
-        raise ConvergenceError(f"too many steps {status}")
-    propagators = _propagators(logs, angles) if tangents == 2 else None
-    return Orbit(states, logs[:tangents], propagators, friction_time)
+
+    def run(part):
+        _turning_points(
+            q[part], state[:, part], direction, float(beyond), longest[part], 2 * bool(derivatives), rtol, atol,
+            max_steps, found[:, part], derivative[:, :, part], status[part],
+        )  # fmt: skip
+
+    _parallel(run, size, threads)
+    _raise(status, columns)
+    return TurningPoint(*found, *derivative) if derivatives else TurningPoint(*found)
 
 
-def _propagators(logs, angles):
+@compiled
+def _orbits(
+    q, times, tangents, rtol, atol, max_steps, states, frames, angles, friction_time, annihilations, evaluations, status
+):
+    K, y, new, carry, tally = _workspace()
+    for i in range(len(q)):
+        q[i, START] = times[i, 0]
+        _start(q[i], states[i, 0, 0], states[i, 1, 0], y, carry)
+        tally[:] = 0
+        for j in range(times.shape[1] - 1):
+            q[i, START], y[T], y[S] = times[i, j], 0.0, 0.0
+            span, before = times[i, j + 1] - times[i, j], tally[PASSAGES]
+            carry[MOVE] = math.copysign(carry[MOVE], span)
+            status[i] = follow(
+                q[i], y, T, span, (0.0, 0.0), carry, tangents, rtol, atol, max_steps, frames[i, :, j], tally, K, new
+            )
+            if status[i] != DONE:
+                break
+            states[i, 0, j + 1], states[i, 1, j + 1] = y[X], velocity(q[i], y[W])
+            friction_time[i, j], annihilations[i, j] = y[S], tally[PASSAGES] - before
+            angles[i, j + 1] = math.atan2(y[ETA1], y[XI1])
+        evaluations[i] = tally[EVALUATIONS]
+
+
+@compiled
+def _turning_points(q, state, direction, beyond, longest, tangents, rtol, atol, max_steps, found, derivative, status):
+    K, y, new, carry, tally = _workspace()
+    frame = np.zeros(3)
+    for i in range(len(q)):
+        _start(q[i], state[0, i], state[1, i], y, carry)
+        y[T], y[S], frame[:] = 0.0, 0.0, 0.0
+        carry[MOVE] *= direction
+        limit = (beyond, longest[i])
+        status[i] = follow(q[i], y, W, 0.0, limit, carry, tangents, rtol, atol, max_steps, frame, tally, K, new)
+        found[0, i], found[1, i] = q[i, START] + y[T], y[X]
+        r11, r22 = math.exp(frame[LOG1]), math.exp(frame[LOG2])
+        # The tangent map is Q R with Q the rotation by the frame's angle: rows of (x, v).
+        a, b = y[XI1], y[ETA1]
+        pull = force(q[i], y[X], y[T])
+        derivative[1, 0, i], derivative[1, 1, i] = a * r11, a * r11 * frame[SHEAR] - b * r22
+        derivative[0, 0, i], derivative[0, 1, i] = -b * r11 / pull, -(b * r11 * frame[SHEAR] + a * r22) / pull
+
+
+@compiled
+def _workspace():
+    return np.zeros((STAGES, 8)), np.zeros(8), np.zeros(8), np.zeros(2), np.zeros(3, dtype=np.int64)
+
+
+@compiled
+def _start(q, x, v, y, carry):
+    y[:] = 0.0
+    y[X], y[W], y[XI1], y[ETA2] = x, variable(q, v), 1.0, 1.0
+    carry[MOVE], carry[CREEP] = 0.05 / q[OMEGA], 0.0
+    if q[P] > 1.0 and at_rest(q, x, force(q, x, 0.0), v):
+        q[M], q[N] = 1.0, q[P]  # at rest without force w would stay what it is for ever: take v itself
+
+
+def _propagators(frames, angles):
+    """Q R Q0^T of each interval, (2, 2, n - 1, N)."""
+
     def rotation(a):
         return np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
-    r = np.exp(logs[:2])
-    R = np.array([[r[0], r[0] * logs[2]], [np.zeros_like(r[0]), r[1]]])
-    return np.einsum("ij...,jk...,lk...->il...", rotation(angles[1:]), R, rotation(angles[:-1]))
+
+    r11, r22 = np.exp(frames[LOG1]), np.exp(frames[LOG2])
+    upper = np.array([[r11, r11 * frames[SHEAR]], [np.zeros_like(r11), r22]])
+    return np.einsum("ij...,jk...,lk...->il...", rotation(angles[1:]), upper, rotation(angles[:-1]))
 
 
-@compiled
-def _follow(q, times, tangents, rtol, atol, max_steps, states, logs, angles, friction_time, evaluations):
-    K = np.zeros((STAGES, 8))
-    y, new = np.zeros(8), np.zeros(8)
-    y[X], y[W] = states[0, 0], variable(q, states[1, 0])
-    y[XI1], y[ETA2] = 1.0, 1.0
-    h = 0.01 * 2 * math.pi / q[OMEGA]
-    for i in range(times.size - 1):
-        q[START], y[T], y[S] = times[i], 0.0, 0.0
-        sums = logs[:, i]
-        h, status, count = _until(q, y, times[i + 1] - times[i], h, tangents, rtol, atol, max_steps, sums, K, new)
-        evaluations[0] += count
-        if status != _DONE:
-            return status
-        states[0, i + 1], states[1, i + 1] = y[X], velocity(q, y[W])
-        friction_time[i] = y[S]
-        if tangents > 0:
-            _orthonormalise(y, tangents, sums)
-            angles[i + 1] = math.atan2(y[ETA1], y[XI1])
-    return _DONE
+def _members(osc, state, shape):
+    columns = osc.columns()
+    size = math.prod(shape)
+    if columns.shape[1] != size:
+        columns = np.repeat(columns, size, axis=1)
+    return columns, checks.state(state, (size,) if np.shape(state) == (2, size) else shape), size
 
 
-@compiled
-def _until(q, y, target, h, tangents, rtol, atol, max_steps, sums, K, new):
-    h = math.copysign(h, target)
-    rate(q, y, tangents, K[0])
-    count = 1
-    for _ in range(max_steps):
-        advance(q, y, h, tangents, K, new)
-        count += 12
-        e = error(q, y, new, h, K, rtol, atol)
-        if not e <= 1.0:
-            h *= max(0.2, 0.9 * e ** -0.125) if e > 1.0 else 0.2
-            continue
-        arrived = abs(new[T]) >= abs(target)
-        if arrived:
-            _, more = land(q, y, h, tangents, T, target, K, new)
-            count += more
-        else:
-            h *= min(6.0, 0.9 * e ** -0.125) if e > 0 else 6.0
-        y[:] = new
-        K[0] = K[12]
-        if arrived:
-            return h, _DONE, count
-        if not abs(y[X]) < _ESCAPED:
-            return h, _DIVERGED, count
-        if tangents == 2:
-            area = y[XI1] * y[ETA2] - y[ETA1] * y[XI2]
-            if abs(area) < 0.01 * math.hypot(y[XI1], y[ETA1]) * math.hypot(y[XI2], y[ETA2]):
-                _orthonormalise(y, tangents, sums)
-                rate(q, y, tangents, K[0])
-    return h, _TOO_MANY_STEPS, count
+def _times(t, size):
+    """Times (N, n), strictly monotone."""
+    t = np.asarray(t)
+    columns = t.T if t.ndim == 2 and t.shape[1] == size and t.shape[0] > 0 else [t] * size
+    return np.array([_monotone(column) for column in columns]).reshape(size, -1)
 
 
-@compiled
-def _orthonormalise(y, tangents, sums):
-    r11 = math.hypot(y[XI1], y[ETA1])
-    if tangents == 2:
-        r12 = (y[XI1] * y[XI2] + y[ETA1] * y[ETA2]) / r11
-        r22 = (y[XI1] * y[ETA2] - y[ETA1] * y[XI2]) / r11
-        sums[2] += r12 / r11 * math.exp(sums[1] - sums[0])
-        sums[1] += math.log(r22)
-    sums[0] += math.log(r11)
-    y[XI1] /= r11
-    y[ETA1] /= r11
-    y[XI2], y[ETA2] = -y[ETA1], y[XI1]
+def _monotone(t):
+    backward = t.ndim == 1 and t.size > 1 and t.dtype.kind in "iuf" and t[1] < t[0]
+    return -checks.times(-t) if backward else checks.times(t)
+
+
+def _tolerances(rtol, atol, max_steps):
+    return checks.positive("rtol", rtol), checks.positive("atol", atol), checks.count("max_steps", max_steps)
+
+
+def _parallel(run, size, threads):
+    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    parts = [slice(i, i + _BLOCK) for i in range(0, size, _BLOCK)]
+    if threads == 1 or len(parts) == 1:
+        for part in parts:
+            run(part)
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(run, parts))
+
+
+def _raise(status, columns):
+    """The named error of the first member that failed."""
+    failed = np.flatnonzero(status != DONE)
+    if failed.size:
+        kind, reason = _FAILURES[status[failed[0]]]
+        names = ("alpha", "p", "mu", "omega", "delta", "gamma")
+        member = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, failed[0]], strict=True))
+        raise kind(f"{failed.size} of {status.size} members fail; the first, {member}: {reason}")

@@ -13,8 +13,9 @@ pair of order eight wants all of them. The tangent (xi, eta) = (dx, dv) at fixed
     dxi/ds = phi eta,     deta/ds = phi F_x xi - alpha n |w|^(n-1) eta,     dS/ds = n |w|^(n-1),
 
 S being friction time, the integral of p |v|^(p-1) dt: the tangent map contracts areas by exp(-alpha S) exactly.
-The independent variable of the integration is sigma, ds = dsigma / (1 + phi), for an even pace: time where v is
-large, friction time where v is small. For p >= 1 (or alpha = 0) m = 1 and sigma is time: the same code.
+The independent variable of the integration is sigma, ds = dsigma / (m + phi), for an even pace: time where v is
+large, friction time where v is small. Where the damping is smooth in v (p = 1, 3, 5 ... or alpha = 0), m = 1, n = p
+and sigma is time: the same code. Other p > 1 gain from the variable w, too: v |v|^(p-1) is not smooth at v = 0.
 """
 
 import math
@@ -34,13 +35,12 @@ _SMOOTHNESS = 8  # the least m - 1 for which the pair keeps its order at w = 0
 
 
 def parameters(columns):
-    """Rows (9, N) of the kernels' parameters from the oscillator's columns (6, N)."""
+    """The kernels' parameters, one row of nine a member, from the oscillator's columns (6, N)."""
     alpha, p = columns[0], columns[1]
-    n = 2 * np.ceil(((_SMOOTHNESS + 1) * p - 1) / 2) + 1
-    n = np.where(p < 1, np.maximum(n, 1), np.where(alpha > 0, p, 1))
-    n = np.where(alpha > 0, n, 1)
-    m = np.where((p < 1) & (alpha > 0), n / p, 1)
-    return np.concatenate([columns, [m, n, np.zeros_like(m)]])
+    odd = 2 * np.ceil(np.maximum((_SMOOTHNESS + 1) * p - 1, 0) / 2) + 1
+    n = np.where(alpha > 0, np.where(p % 2 == 1, p, odd), 1)
+    m = np.where((alpha > 0) & (p % 2 != 1), n / p, 1)
+    return np.ascontiguousarray(np.concatenate([columns, [m, n, np.zeros_like(m)]]).T)
 
 
 @compiled
@@ -82,7 +82,7 @@ def variable(q, v):
 def rate(q, y, tangents, out):
     """out = dy/dsigma, with as many tangent vectors as asked."""
     phi, power = powers(q, y[W])
-    pace = 1.0 if q[M] == 1.0 else 1 / (1 + phi)
+    pace = 1.0 if q[M] == 1.0 else 1 / (q[M] + phi)
     dt = phi * pace
     friction = q[N] * power * pace
     out[X] = dt * phi * y[W] / q[M]

@@ -47,7 +47,7 @@ def lyapunov_spectrum(
 def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d0=1e-8, steps_per_period=500):
     """lambda_1 by the paper's algorithm with two trajectories: Runge-Kutta, distance reset to d0 once a period.
 
-    Arguments and result as for `lyapunov_spectrum` with k = 1; d0 : the distance of the trajectories (in x at the start).
+    Arguments and result as for `lyapunov_spectrum` with k = 1; d0 : the distance of the trajectories (at first in x).
     """
     checks.count("transient", transient, least=0)
     checks.positive("d0", d0)

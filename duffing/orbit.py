@@ -13,6 +13,7 @@ class Orbit(NamedTuple):
     propagators : (2, 2, n - 1, N) tangent map of each interval when k = 2, else None
     friction_time : (n - 1, N) friction time S = integral of p |v|^(p-1) dt spent in each interval, where it is measured
     annihilations : (n - 1, N) number of times that a creep through zero force destroyed a tangent direction
+    evaluations : (N,) number of evaluations of the force, where it is counted
     """
 
     states: np.ndarray
@@ -20,3 +21,4 @@ class Orbit(NamedTuple):
     propagators: np.ndarray | None = None
     friction_time: np.ndarray | None = None
     annihilations: np.ndarray | None = None
+    evaluations: np.ndarray | None = None

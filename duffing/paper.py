@@ -48,10 +48,16 @@ CLAIMS = (
     Claim("can-transit", "Section 2", "“For μ > μ_c the system can transit to chaotic vibrations.”"),
     Claim("above-line", "Fig. 3b", "“in all cases … points are above the line”."),
     Claim("agreement", "Fig. 3b", "Analytical and numerical results “are in good agreement”."),
-    Claim("sign-change", "Fig. 4", "One sees the sign change of λ₁, which “indicates transition to chaotic vibrations”."),
+    Claim(
+        "sign-change", "Fig. 4", "One sees the sign change of λ₁, which “indicates transition to chaotic vibrations”."
+    ),
     Claim("false-positive", "Fig. 4a", "At p = 0.1 there are “small but positive values of λ₁ for weak excitation”."),
     Claim("small-amplitude", "Section 2", "For μ close to 0 at p = 0.1 the “amplitude of vibrations was very small”."),
-    Claim("smaller-steps", "Section 2", "Steps 50 times smaller are “sufficient to reduce the positive value around μ = 0”."),
+    Claim(
+        "smaller-steps",
+        "Section 2",
+        "Steps 50 times smaller are “sufficient to reduce the positive value around μ = 0”.",
+    ),
     Claim("robust-onset", "Section 2", "… “leaving, in principle, unchanged that λ₁ which appears at μ ≈ 0.27”."),
     Claim("threshold", "Section 2, Fig. 4", "Above the threshold λ₁ = 0.1 the system is in a chaotic state."),
     Claim("lambda-027", "Section 2, Fig. 4a", "λ₁ = 0.175 at p = 0.1, μ = 0.27."),
@@ -63,7 +69,11 @@ CLAIMS = (
     Claim("t-1200", "Section 2", "t = 1200 was “chosen in such a way to reach by our system a steady state”."),
     Claim("mu-c2", "Conclusions", "The Lyapunov threshold lies higher than Melnikov's: μ_c2 > μ_c1."),
     Claim("transients", "Conclusions", "Above the Melnikov prediction there are “transient chaotic vibrations”."),
-    Claim("resonance", "Conclusions", "Near resonance the “amplitude response rised for small fractional exponents (p < 1)”."),
+    Claim(
+        "resonance",
+        "Conclusions",
+        "Near resonance the “amplitude response rised for small fractional exponents (p < 1)”.",
+    ),
     Claim("larger-lambda", "Conclusions", "λ₁ is larger at p = 0.1 than at p = 1 (Fig. 4a and b)."),
     Claim("contradiction", "Conclusions", "Larger λ₁ at small p contradicts the ordering of Melnikov's thresholds."),
     Claim("algorithm", "Conclusions", "For small p “one must improve a simple numerical algorithm”."),

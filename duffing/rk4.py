@@ -2,11 +2,15 @@
 
 x' = v,  v' = mu cos(omega t) - delta x - gamma x^3 - alpha v |v|^(p-1), and with it up to two tangent vectors
 xi' = eta,  eta' = -(delta + 3 gamma x^2) xi - alpha p |v|^(p-1) eta.
+
+All arithmetic that feeds back into a solution is spelled out in operations that IEEE 754 fixes, so its bits do not
+depend on the machine, on threads or on the family that a member belongs to: in chaos nothing less is reproducible.
 """
 
 import os
 from concurrent.futures import ThreadPoolExecutor
 
+import mpmath
 import numpy as np
 from llvmlite import ir
 from numba import carray, njit, types
@@ -16,19 +20,27 @@ from numba.extending import intrinsic
 from . import checks
 from .errors import DivergedError
 from .orbit import Orbit
-from .powers import evaluate, power
+from .powers import evaluate, fma, power
 
-LANES = 64  # trajectories of a block: their rows stay in the first-level cache, and loops over them fill the vector units
-PAD = 8  # the widest vector of doubles: a block is filled up to a multiple of it
-LEAST_SPEED = 2.0**-50  # below it |v|^(p-1) is held for p < 1: the damping stays 0 at v = 0, the tangent's singularity finite
-BETWEEN = 50  # steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval
-GRID = 2.0**40  # forcing phases are rounded to turns/GRID, so that equal phases are seen as equal and never drift
+# Trajectories of a block (its rows stay in the first-level cache) and of an inner loop (the widest vector of doubles).
+LANES, WIDTH = 64, 8
+# Below this speed |v|^(p-1) is held for p < 1: damping stays 0 at v = 0, the tangent's singularity finite.
+LEAST_SPEED = 2.0**-50
+# Steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval.
+BETWEEN = 50
+# Forcing phases are rounded to 1/GRID turns: equal phases are then seen as equal, and none drifts over many periods.
+GRID = 2.0**40
 
-# Rows of a block's workspace: the state and tangents at the start of the step, at the stage, and the sum of slopes.
+# Rows of a block's workspace: the state and tangents at the start of the step, at the stage, and the sum of slopes;
+# then the step, the parameters, and the tangents as last made orthonormal.
 _X, _V, _TANGENT = 0, 1, 2
 _START, _STAGE, _SUM = 0, 6, 12
 _H, _ALPHA, _P, _MU, _DELTA, _GAMMA, _Q = 18, 19, 20, 21, 22, 23, 24
 _ROWS = 28
+
+# Taylor coefficients of cos(2 pi u) in u^2: on a quarter turn the next one is below 1e-18.
+with mpmath.workprec(100):
+    _COSINE = tuple(float((-4 * mpmath.pi**2) ** k / mpmath.factorial(2 * k)) for k in range(13))
 
 
 def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
@@ -37,10 +49,10 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     Parameters
     ----------
     osc : Duffing, a single oscillator or a family of N members
-    state : (2,) or (2, *family) or (2, N), (x, v) at t[0]
+    state : (2,), (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing times; each interval is cut into the least number of equal steps
-    tangents : 0, 1 or 2 tangent vectors; growth and propagators are of each interval
-    threads : at most so many at once (default: the processors); the result is the same to the last bit
+    tangents : 0, 1 or 2 tangent vectors, made orthonormal at every time
+    threads : at most so many at once (default: the processors)
 
     Returns
     -------
@@ -49,93 +61,140 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     Raises
     ------
     ValueError : for invalid input
-    DivergedError : when a solution or its tangent is not finite
+    DivergedError : when a solution or a tangent is not finite (for p < 1 also a tangent of exact rest, v = 0: there
+        the damping contracts without bound, which an explicit step cannot follow)
     """
-    columns = osc.columns()
-    size = columns.shape[1]
-    state = checks.state(state, (size,) if np.shape(state) == (2, size) else osc.shape)
-    t = _times(t, size)
+    columns, state, t, steps_per_period, threads = _checked(osc, state, t, steps_per_period, threads)
     tangents = checks.count("tangents", tangents, least=0)
     if tangents > 2:
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
-    steps_per_period = checks.count("steps_per_period", steps_per_period)
-    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    n, size = len(t), columns.shape[1]
+    states, growth = np.empty((2, n, size)), np.empty((tangents, n - 1, size))
+    propagators = np.empty((2, 2, n - 1, size)) if tangents == 2 else np.empty((0, 0, 0, 0))
 
-    n = len(t)
-    states = np.empty((2, n, size))
-    growth = np.empty((tangents, n - 1, size))
-    propagators = np.empty((2, 2, n - 1 if tangents == 2 else 0, size))
+    def run(members, padded, h, law, forcing):
+        start = (columns[:, padded], state[:, padded], h)
+        _advance(*start, *forcing, law, (0,) * tangents, members, states, growth, propagators)
 
-    def run(block):
-        members, law, (cosines, offsets, counts) = block
-        padded = np.resize(members, -(-len(members) // PAD) * PAD)
-        h = np.diff(t[:, padded], axis=0) / counts[:, None]
-        _advance(
-            columns[:, padded], state[:, padded], h, cosines, offsets, counts, law, (0,) * tangents,
-            members, states, growth, propagators,
-        )  # fmt: skip
-
-    blocks = _blocks(columns, t, steps_per_period)
-    if threads == 1 or len(blocks) == 1:
-        for block in blocks:
-            run(block)
-    else:
-        with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(run, blocks))
-    _check_finite(states, growth, columns)
+    _in_blocks(run, columns, t, steps_per_period, threads)
+    _check_finite(columns, states, growth, propagators)
     return Orbit(states, growth, propagators if tangents == 2 else None)
 
 
-def _times(t, size):
-    t = np.asarray(t)
-    if t.ndim == 2 and t.shape[1] == size and t.shape[0] > 0:
-        return np.stack([checks.times(column) for column in t.T], axis=1) if size else t.astype(float)
-    return np.repeat(checks.times(t)[:, None], size, axis=1)
+def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, threads=None):
+    """Log growth (periods, N), per forcing period, of the distance to a companion started at (x + d0, v) and t = 0.
+
+    After each period the companion is put back to the distance d0 along the separation reached (Benettin et al. 1980).
+    Where the two have become equal in every bit, the separation counts as one unit in the last place of the larger of
+    |x|, |v|, so that the growth recorded is an upper bound, and the companion starts anew at (x + d0, v).
+
+    osc, state, steps_per_period, threads as in `integrate`; raises ValueError for invalid input, also for a d0 that
+    x + d0 cannot show, and DivergedError when a solution is not finite.
+    """
+    periods, d0 = checks.count("periods", periods), checks.positive("d0", d0)
+    period = np.array([[0.0], [1.0]]) * np.ravel(np.broadcast_to(osc.period, osc.shape))
+    columns, state, t, steps_per_period, threads = _checked(osc, state, period, steps_per_period, threads)
+    if np.any(state[0] + d0 == state[0]):
+        raise ValueError(f"d0 = {d0}: must be large enough to change x = {state[0]} in double precision")
+    growth = np.empty((periods, columns.shape[1]))
+
+    def run(members, padded, h, law, forcing):
+        lanes = np.arange(len(padded))
+        ends, nothing = np.empty((2, 2, 2, len(lanes))), (np.empty((0, 1, len(lanes))), np.empty((0, 0, 0, 0)))
+        start = np.array([[d0], [0.0]])
+        pair = np.repeat(state[None, :, padded], 2, axis=0)
+        for i in range(periods):
+            pair[1] = pair[0] + start
+            before = np.hypot(*(pair[1] - pair[0]))
+            for each in range(2):
+                _advance(columns[:, padded], pair[each], h, *forcing, law, (), lanes, ends[each], *nothing)
+            _check_finite(columns[:, padded], *ends)
+            pair = np.ascontiguousarray(ends[:, :, 1])
+            apart = pair[1] - pair[0]
+            distance = np.hypot(*apart)
+            merged = distance == 0
+            distance = np.where(merged, np.spacing(np.abs(pair[0]).max(axis=0)), distance)
+            growth[i, members] = np.log(distance / before)[: len(members)]
+            start = np.where(merged, [[d0], [0.0]], apart * (d0 / distance))
+
+    _in_blocks(run, columns, t, steps_per_period, threads)
+    return growth
 
 
-def _blocks(columns, t, steps_per_period):
-    """Cut the family into blocks of one p and one sequence of forcing phases: (members, power, forcing) each."""
-    turns = t * columns[3] / (2 * np.pi)
-    # A millionth of a step of slack: round-off in the times must not add a step.
-    counts = np.maximum(np.ceil(np.diff(turns, axis=0) * steps_per_period - 1e-6), 1.0)
-    phases = np.rint(turns * GRID)
-    keys = np.concatenate([columns[1:2], counts, phases % GRID, np.diff(phases, axis=0)])
-    groups = {}
-    for member, key in enumerate(np.ascontiguousarray(keys.T)):
-        groups.setdefault(key.tobytes(), []).append(member)
-    blocks = []
-    for members in groups.values():
-        p, first = columns[1, members[0]], members[0]
-        law = None if p == 1 else power(p - 1, LEAST_SPEED if p < 1 else 2.0**-1022)
-        forcing = _cosines(phases[:, first], counts[:, first].astype(int))
-        blocks += [(np.array(members[i : i + LANES]), law, forcing) for i in range(0, len(members), LANES)]
-    return blocks
+def _checked(osc, state, t, steps_per_period, threads):
+    columns = osc.columns()
+    size = columns.shape[1]
+    state = checks.state(state, (size,) if np.shape(state) == (2, size) else osc.shape)
+    if np.ndim(t) == 2 and np.shape(t)[1] == size and size > 0:
+        t = np.stack([checks.times(column) for column in np.transpose(t)], axis=1)
+    else:
+        t = checks.times(t)[:, None]
+    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    return columns, state, t, checks.count("steps_per_period", steps_per_period), threads
 
 
-def _cosines(phases, counts):
-    """cos(omega t) at the ends and middles of all steps: one table, with the interval's offset in it and its steps."""
-    tables, offsets, known, length = [], [], {}, 0
-    for start, turn, count in zip(phases[:-1] % GRID, np.diff(phases), counts, strict=True):
-        if (start, turn, count) not in known:
-            known[start, turn, count] = length
-            angle = (start + turn * (np.arange(2 * count + 1) / (2 * count))) / GRID
-            tables.append(np.cos(2 * np.pi * (angle - np.rint(angle))))
-            length += 2 * count + 1
-        offsets.append(known[start, turn, count])
-    return np.concatenate([*tables, np.empty(0)]), np.array(offsets, dtype=int), counts
-
-
-def _check_finite(states, growth, columns):
-    bad = ~(np.isfinite(states).all(axis=(0, 1)) & np.isfinite(growth).all(axis=(0, 1)))
-    if bad.any():
+def _check_finite(columns, *results):
+    bad = ~np.all([np.isfinite(r).all(axis=tuple(range(r.ndim - 1))) for r in results if r.size], axis=0)
+    if np.any(bad):
         names = ("alpha", "p", "mu", "omega", "delta", "gamma")
         first = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, bad.argmax()], strict=True))
-        raise DivergedError(f"{bad.sum()} of {bad.size} members have a solution or tangent that is not finite: {first}")
+        raise DivergedError(f"{bad.sum()} of {bad.size} solutions or tangents are not finite; the first has {first}")
+
+
+def _in_blocks(run, columns, t, steps_per_period, threads):
+    """Call run(members, padded, h, law, forcing) for blocks of members with one p and one sequence of phases."""
+    # With common times only the frequencies tell the members' clocks apart.
+    own = t.shape[1] > 1
+    omega, clock = (columns[3], np.arange(columns.shape[1])) if own else np.unique(columns[3], return_inverse=True)
+    turns = t * omega / (2 * np.pi)
+    # A millionth of a step of slack: round-off in the times must not add a step.
+    counts = np.maximum(np.ceil(np.diff(turns, axis=0) * steps_per_period - 1e-6), 1).astype(int)
+    phases = np.rint(turns * GRID)
+    forcings, groups = {}, {}
+    for c in range(len(omega)):
+        key = (phases[:-1, c] % GRID).tobytes() + np.diff(phases[:, c]).tobytes() + counts[:, c].tobytes()
+        if key not in forcings:
+            forcings[key] = _forcing(phases[:, c], np.ascontiguousarray(counts[:, c]))
+        for member in np.flatnonzero(clock == c):
+            groups.setdefault((columns[1, member], key), []).append(member)
+
+    def run_block(p, key, members):
+        padded = np.resize(members, -(-len(members) // WIDTH) * WIDTH)
+        h = np.diff(t[:, padded] if own else np.repeat(t, len(padded), axis=1), axis=0) / forcings[key][2][:, None]
+        law = None if p == 1 else power(p - 1, LEAST_SPEED if p < 1 else 2.0**-1022)
+        run(members, padded, h, law, forcings[key])
+
+    blocks = [(*k, np.array(m[i : i + LANES])) for k, m in groups.items() for i in range(0, len(m), LANES)]
+    with ThreadPoolExecutor(threads) as pool:
+        list(pool.map(run_block, *zip(*blocks, strict=True)))
+
+
+def _forcing(phases, counts):
+    """cos(omega t) at the ends and middles of all steps, the place of each interval in that table, and its steps."""
+    tables, offsets, known, length = [np.empty(0)], [], {}, 0
+    for interval in zip(phases[:-1] % GRID, np.diff(phases), counts, strict=True):
+        if interval not in known:
+            start, turn, count = interval
+            known[interval] = length
+            tables.append(_cosine_of_turns((start + turn * (np.arange(2 * count + 1) / (2 * count))) / GRID))
+            length += 2 * count + 1
+        offsets.append(known[interval])
+    return np.concatenate(tables), np.array(offsets, dtype=int), counts
+
+
+def _cosine_of_turns(turns):
+    """cos(2 pi turns) by its Taylor series up to a quarter turn: a library's cosine differs between machines."""
+    part = np.abs(turns - np.rint(turns))
+    z = np.minimum(part, 0.5 - part) ** 2
+    total = 0.0
+    for coefficient in reversed(_COSINE):
+        total = total * z + coefficient
+    return np.where(part > 0.25, -total, total)
 
 
 @intrinsic
-def _stack_rows(typingctx):
-    """Memory on the stack: LLVM sees that nothing else can point there, without which it vectorises no table look-up."""
+def _workspace(typingctx):
+    """Memory on the stack: LLVM sees that nothing else points there, without which it vectorises no table look-up."""
 
     def codegen(context, builder, signature, arguments):
         rows = cgutils.alloca_once(builder, ir.ArrayType(ir.DoubleType(), _ROWS * LANES))
@@ -148,100 +207,120 @@ def _stack_rows(typingctx):
 @njit(cache=True, nogil=True, error_model="numpy")
 def _advance(columns, state, h, cosines, offsets, counts, law, basis, members, states, growth, propagators):
     """Advance one block through all intervals. law: None for p = 1; basis: a tuple as long as there are tangents."""
-    w = carray(_stack_rows(), (_ROWS, LANES))
-    lanes = state.shape[1]
-    for l in range(lanes):
-        w[_X, l], w[_V, l] = state[0, l], state[1, l]
-        w[_ALPHA, l], w[_P, l], w[_MU, l] = columns[0, l], columns[1, l], columns[2, l]
-        w[_DELTA, l], w[_GAMMA, l] = columns[4, l], columns[5, l]
+    blocks = carray(_workspace(), (LANES // WIDTH, _ROWS, WIDTH))[: state.shape[1] // WIDTH]
+    for lane in range(state.shape[1]):
+        b, l = blocks[lane // WIDTH], lane % WIDTH
+        b[_X, l], b[_V, l] = state[0, lane], state[1, lane]
+        b[_ALPHA, l], b[_P, l], b[_MU, l] = columns[0, lane], columns[1, lane], columns[2, lane]
+        b[_DELTA, l], b[_GAMMA, l] = columns[4, lane], columns[5, lane]
         for j in range(len(basis)):
             for i in range(2):
-                w[_TANGENT + 2 * j + i, l] = w[_Q + 2 * j + i, l] = 1.0 if i == j else 0.0
-    for l, member in enumerate(members):
-        states[0, 0, member], states[1, 0, member] = w[_X, l], w[_V, l]
+                b[_TANGENT + 2 * j + i, l] = b[_Q + 2 * j + i, l] = 1.0 if i == j else 0.0
+    for lane, member in enumerate(members):
+        states[:, 0, member] = state[:, lane]
+        growth[:, :, member] = 0.0
+        for j in range(propagators.shape[0]):
+            for k in range(propagators.shape[1]):
+                propagators[j, k, :, member] = 1.0 if j == k else 0.0
     for i in range(len(counts)):
-        for l in range(lanes):
-            w[_H, l] = h[i, l]
-        for l, member in enumerate(members):
-            for j in range(len(basis)):
-                growth[j, i, member] = 0.0
-            if len(basis) == 2:
-                for j in range(4):
-                    propagators[j // 2, j % 2, i, member] = 1.0 if j == 0 or j == 3 else 0.0
-        at = offsets[i]
-        done = 0
-        while done < counts[i]:
-            for _ in range(min(BETWEEN, counts[i] - done)):
-                _stage(w, lanes, law, basis, cosines[at], _START, 1.0, 0.5)
-                _stage(w, lanes, law, basis, cosines[at + 1], _STAGE, 2.0, 0.5)
-                _stage(w, lanes, law, basis, cosines[at + 1], _STAGE, 2.0, 1.0)
-                _stage(w, lanes, law, basis, cosines[at + 2], _STAGE, 1.0, 0.0)
-                at += 2
-                done += 1
-            for l, member in enumerate(members):
+        for lane in range(state.shape[1]):
+            blocks[lane // WIDTH, _H, lane % WIDTH] = h[i, lane]
+        at, end = offsets[i], offsets[i] + 2 * counts[i]
+        while at < end:
+            for now in range(at, min(at + 2 * BETWEEN, end), 2):
+                _step(blocks, law, basis, cosines[now], cosines[now + 1], cosines[now + 2])
+            at += 2 * BETWEEN
+            for lane, member in enumerate(members):
                 if len(basis) == 2:
-                    _propagate(w, l, propagators[:, :, i, member])
-                _orthonormalise(w, l, basis, growth[:, i, member])
-        for l, member in enumerate(members):
-            states[0, i + 1, member], states[1, i + 1, member] = w[_X, l], w[_V, l]
+                    _propagate(blocks[lane // WIDTH], lane % WIDTH, propagators[:, :, i, member])
+                if len(basis) > 0:
+                    _orthonormalise(blocks[lane // WIDTH], lane % WIDTH, basis, growth[:, i, member])
+        for lane, member in enumerate(members):
+            b, l = blocks[lane // WIDTH], lane % WIDTH
+            states[0, i + 1, member], states[1, i + 1, member] = b[_X, l], b[_V, l]
 
 
 @njit(forceinline=True)
-def _stage(w, lanes, law, basis, cosine, at, weight, ahead):
-    """One stage: slope k at the row group `at`; sum += weight k; next argument = start + ahead h k (0: end of step)."""
-    for l in range(lanes):
-        h = w[_H, l]
-        x, v = w[at + _X, l], w[at + _V, l]
-        stiffness = w[_GAMMA, l] * x * x
-        # |v|^(p-1), the costly part, serves the damping v |v|^(p-1) and the tangent's p |v|^(p-1).
-        friction = w[_ALPHA, l] if law is None else w[_ALPHA, l] * evaluate(v, law)
-        a = w[_MU, l] * cosine - (w[_DELTA, l] + stiffness) * x - friction * v
-        _update(w, l, _X, v, h, at, weight, ahead)
-        _update(w, l, _V, a, h, at, weight, ahead)
-        if law is not None:
-            friction = w[_P, l] * friction
-        for j in range(len(basis)):
-            xi, eta = w[at + _TANGENT + 2 * j, l], w[at + _TANGENT + 2 * j + 1, l]
-            b = -(w[_DELTA, l] + 3.0 * stiffness) * xi - friction * eta
-            _update(w, l, _TANGENT + 2 * j, eta, h, at, weight, ahead)
-            _update(w, l, _TANGENT + 2 * j + 1, b, h, at, weight, ahead)
+def _step(blocks, law, basis, c0, c1, c2):
+    """y <- y + h/6 (k1 + 2 k2 + 2 k3 + k4) in every lane; c0, c1, c2: cos(omega t) at the start, middle and end.
 
-
-@njit(forceinline=True)
-def _update(w, l, row, k, h, at, weight, ahead):
-    total = k if at == _START else w[_SUM + row, l] + weight * k
-    if ahead == 0.0:
-        w[row, l] += h * (1.0 / 6.0) * total
+    Without a power the whole step stays in registers. With one, the lanes are the inner loop of each stage: many
+    powers are then under way at once, instead of four that wait for one another.
+    """
+    if law is None:
+        for c in range(len(blocks)):
+            for l in range(WIDTH):
+                _stage(blocks[c], l, law, basis, c0, _START, 1.0, 0.5)
+                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 0.5)
+                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 1.0)
+                _stage(blocks[c], l, law, basis, c2, _STAGE, 1.0, 0.0)
     else:
-        w[_SUM + row, l] = total
-        w[_STAGE + row, l] = w[row, l] + (ahead * h) * k
+        for c in range(len(blocks)):
+            for l in range(WIDTH):
+                _stage(blocks[c], l, law, basis, c0, _START, 1.0, 0.5)
+        for c in range(len(blocks)):
+            for l in range(WIDTH):
+                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 0.5)
+        for c in range(len(blocks)):
+            for l in range(WIDTH):
+                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 1.0)
+        for c in range(len(blocks)):
+            for l in range(WIDTH):
+                _stage(blocks[c], l, law, basis, c2, _STAGE, 1.0, 0.0)
 
 
 @njit(forceinline=True)
-def _propagate(w, l, propagator):
+def _stage(b, l, law, basis, cosine, at, weight, ahead):
+    """Slope k at the rows `at`; sum += weight k; next argument = start + ahead h k (ahead = 0: the step's end)."""
+    x, v = b[at + _X, l], b[at + _V, l]
+    stiffness = b[_GAMMA, l] * x * x
+    # |v|^(p-1), the costly part, serves the damping v |v|^(p-1) and the tangent's p |v|^(p-1).
+    friction = b[_ALPHA, l] if law is None else b[_ALPHA, l] * evaluate(v, law)
+    force = fma(-(b[_DELTA, l] + stiffness), x, b[_MU, l] * cosine)
+    _use(b, l, _X, v, at, weight, ahead)
+    _use(b, l, _V, fma(-friction, v, force), at, weight, ahead)
+    slope = friction if law is None else b[_P, l] * friction
+    for j in range(len(basis)):
+        row = _TANGENT + 2 * j
+        xi, eta = b[at + row, l], b[at + row + 1, l]
+        _use(b, l, row, eta, at, weight, ahead)
+        _use(b, l, row + 1, fma(-slope, eta, -fma(3.0, stiffness, b[_DELTA, l]) * xi), at, weight, ahead)
+
+
+@njit(forceinline=True)
+def _use(b, l, row, k, at, weight, ahead):
+    """Enter one component's slope k into the sum and into the next stage's argument or, at the last stage, the step."""
+    total = k if at == _START else fma(weight, k, b[_SUM + row, l])
+    if ahead == 0.0:
+        b[row, l] = fma(b[_H, l] * (1.0 / 6.0), total, b[row, l])
+    else:
+        b[_SUM + row, l] = total
+        b[_STAGE + row, l] = fma(b[_H, l] * ahead, k, b[row, l])
+
+
+@njit(forceinline=True)
+def _propagate(b, l, propagator):
     """propagator <- W Q^T propagator: W are the tangents now, Q what they were when last made orthonormal."""
     for j in range(2):
-        first = w[_Q, l] * propagator[0, j] + w[_Q + 1, l] * propagator[1, j]
-        second = w[_Q + 2, l] * propagator[0, j] + w[_Q + 3, l] * propagator[1, j]
+        first = b[_Q, l] * propagator[0, j] + b[_Q + 1, l] * propagator[1, j]
+        second = b[_Q + 2, l] * propagator[0, j] + b[_Q + 3, l] * propagator[1, j]
         for i in range(2):
-            propagator[i, j] = w[_TANGENT + i, l] * first + w[_TANGENT + 2 + i, l] * second
+            propagator[i, j] = b[_TANGENT + i, l] * first + b[_TANGENT + 2 + i, l] * second
 
 
 @njit(forceinline=True)
-def _orthonormalise(w, l, basis, growth):
+def _orthonormalise(b, l, basis, growth):
     """Gram-Schmidt: the tangents become orthonormal, the logarithms of the diagonal of R are added to growth."""
-    if len(basis) == 0:
-        return
-    xi, eta = w[_TANGENT, l], w[_TANGENT + 1, l]
+    xi, eta = b[_TANGENT, l], b[_TANGENT + 1, l]
     length = np.sqrt(xi * xi + eta * eta)
     xi, eta = xi / length, eta / length
     growth[0] += np.log(length)
-    w[_TANGENT, l], w[_TANGENT + 1, l] = xi, eta
-    w[_Q, l], w[_Q + 1, l] = xi, eta
+    b[_TANGENT, l], b[_TANGENT + 1, l] = xi, eta
+    b[_Q, l], b[_Q + 1, l] = xi, eta
     if len(basis) == 2:
         # In the plane the second direction is known: at right angles to the first, on the second vector's side.
-        height = xi * w[_TANGENT + 3, l] - eta * w[_TANGENT + 2, l]
+        height = xi * b[_TANGENT + 3, l] - eta * b[_TANGENT + 2, l]
         side = 1.0 if height >= 0.0 else -1.0
         growth[1] += np.log(abs(height))
-        w[_TANGENT + 2, l], w[_TANGENT + 3, l] = -side * eta, side * xi
-        w[_Q + 2, l], w[_Q + 3, l] = -side * eta, side * xi
+        b[_TANGENT + 2, l], b[_TANGENT + 3, l] = -side * eta, side * xi
+        b[_Q + 2, l], b[_Q + 3, l] = -side * eta, side * xi

@@ -1,0 +1,65 @@
+# make book | test | lab | bench | lint | clean, and for the maintainer: make environment | baselines
+# Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/ready
+# Chapters read side by side. Their cells use all cores by themselves: more than two gains little.
+JOBS ?= 2
+
+# JupyterLab opens a chapter (.md) as a notebook and asks nobody for news; kept in .venv, so no other project notices.
+LAB_SETTINGS := .venv/etc/jupyter/labconfig/default_setting_overrides.json
+LAB_DEFAULTS := { \
+    "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}, \
+    "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false}}
+
+.PHONY: book test lab bench lint clean environment baselines
+
+book: $(READY)
+	@$(BIN)/python extensions/build.py $(JOBS)
+
+test: $(READY)
+	$(BIN)/python -m pytest
+
+lab: $(READY)
+	$(BIN)/jupyter lab --notebook-dir=. --LabApp.default_url=/lab/tree/chapters/index.md $(LAB_OPTIONS)
+
+bench: $(READY)
+	$(BIN)/python benchmarks/sweep.py
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+# Everything that the other targets make, except the environment (rm -rf .venv).
+clean:
+	rm -rf _build .pytest_cache .ruff_cache .hypothesis
+	find . -name .venv -prune -o -name __pycache__ -prune -exec rm -rf {} +
+
+# The reference data and images of the figures, after a change that is meant to alter them.
+baselines: $(READY)
+	$(BIN)/python -m pytest tests/test_figures.py --regenerate
+
+# Pins every package anew from pyproject.toml, keeping the present versions where they still fit (delete environment.txt
+# first to update all). The maintainer's own target, and the only one that needs uv: it resolves for all systems at once.
+environment:
+	grep -sv '^-e' environment.txt >environment.new || true
+	uv pip compile --quiet --universal --python-version 3.11 --fork-strategy fewest --no-annotate --no-header \
+	    --extra book --extra test pyproject.toml -o environment.new
+	{ echo '# Every package pinned, for Python 3.11 to 3.13 on Linux, macOS and Windows. Compiled from pyproject.toml by `make environment`.'; \
+	    cat environment.new; echo '-e .'; } >environment.txt
+	rm environment.new
+
+# A changed environment.txt makes a new .venv, and so does an installation that did not come to its end; a changed
+# pyproject.toml alone installs the package anew.
+$(READY): environment.txt pyproject.toml
+	@rm -f $@
+	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; (3, 11) <= v <= (3, 13) or sys.exit( \
+	    f"Python 3.11, 3.12 or 3.13 is needed, and $(PYTHON) is {v[0]}.{v[1]}. Name another: make PYTHON=python3.12 ...")'
+	@if cmp -s environment.txt .venv/installed; then \
+	    $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .; \
+	else \
+	    echo "Making .venv from environment.txt: about two minutes, 1 GB" && rm -rf .venv && $(PYTHON) -m venv .venv && \
+	    $(BIN)/python -m pip install --quiet --disable-pip-version-check -r environment.txt && cp environment.txt .venv/installed; \
+	fi
+	@mkdir -p $(dir $(LAB_SETTINGS)) && echo '$(LAB_DEFAULTS)' >$(LAB_SETTINGS)
+	@touch $@

@@ -1,0 +1,204 @@
+"""The creep: one step of an implicit collocation method, in physical time, with the damping force as unknown.
+
+Where |F| < alpha the damping force Y = sign(v) |v|^p relaxes to F / alpha and the mass creeps at the velocity
+sign(F) (|F|/alpha)^(1/p), at p = 0.1 practically at rest. The rate of relaxation alpha / phi, phi = dv/dY =
+|Y|^(1/p-1) / p, becomes infinite as Y -> 0: friction time diverges, explicit methods crawl. The integrated equations
+
+    x(t) = x0 + integral of v(Y) dt,      v(Y(t)) = v(Y0) + integral of (F(x, t) - alpha Y) dt
+
+hold no singular coefficient when Y is the unknown: at a stage the Jacobian is diag(phi) + h alpha A, which does not
+mind phi = 0. The method is Radau's with five stages (order nine, L-stable, exact on the slow branch as its rate goes to
+infinity; Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.5). Nothing is held, and
+no displacement neglected but the tolerance.
+
+The tangent goes by the derivative of the step, which is right for all but the direction that relaxes: that is damped
+like a power of the step where the truth is exp(-alpha S), S = integral of dt / phi. So the area that both vectors
+span is to be taken from S, by Liouville's theorem. When Y passes through zero on the slow branch, Y ~ t, and S, the
+integral of t^(1-1/p), diverges for p <= 1/2: a tangent direction is annihilated.
+"""
+
+import math
+
+import numpy as np
+
+from .friction_time import ALPHA, DELTA, ETA1, GAMMA, MU, XI1, P, S, T, X, compiled, force, stiffness
+
+STAGES = 5
+_GAUSS = 8
+
+
+def _lagrange(nodes, z):
+    """Values (len(z), len(nodes)) at z of the polynomials that are 1 at one node and 0 at the others."""
+    values = np.ones((z.size, nodes.size))
+    for j, node in enumerate(nodes):
+        for other in np.delete(nodes, j):
+            values[:, j] *= (z - other) / (node - other)
+    return values
+
+
+def _integrals(nodes, ends):
+    """Integrals (len(ends), len(nodes)) from 0 to the ends of the same polynomials: the quadrature weights."""
+    z, weights = np.polynomial.legendre.leggauss(nodes.size)
+    return np.array([end / 2 * weights @ _lagrange(nodes, end / 2 * (z + 1)) for end in ends])
+
+
+def _radau_nodes(stages):
+    """Zeros in (0, 1] of P_s - P_(s-1), shifted Legendre polynomials: Radau's nodes, the last of them 1."""
+    series = np.zeros(stages + 1)
+    series[stages - 1 :] = -1, 1
+    return np.append((np.sort(np.polynomial.legendre.legroots(series))[:-1] + 1) / 2, 1.0)
+
+
+_C = _radau_nodes(STAGES)
+_A = _integrals(_C, _C)
+_POINTS = np.append(0.0, _C)
+# The integral over the step, less the same from the start and the first four stages: the estimate of the error.
+_DIFFERENCE = np.append(0.0, _A[-1]) - np.append(_integrals(_POINTS[:-1], np.ones(1))[0], 0.0)
+_G, _GW = (np.polynomial.legendre.leggauss(_GAUSS)[0] + 1) / 2, np.polynomial.legendre.leggauss(_GAUSS)[1] / 2
+_FINE = _lagrange(_POINTS, _G)
+
+
+@compiled
+def creep(q, y, Y0, h, tangents, rtol, atol, new):
+    """One step of h > 0 in time from y, where the damping force is Y0: new (its entry W untouched) is the state there.
+
+    Returns the damping force at the end, the estimated error (1 = just tolerable; infinite: the iteration failed), the
+    passages of Y through zero and the number of force evaluations.
+    """
+    r = 1 / q[P]
+    Y, v, phi = np.empty(STAGES + 1), np.empty(STAGES + 1), np.empty(STAGES + 1)
+    F, x, spring = np.empty(STAGES + 1), np.empty(STAGES + 1), np.empty(STAGES + 1)
+    J, rhs, order = np.empty((STAGES, STAGES)), np.empty(STAGES), np.empty(STAGES, dtype=np.int64)
+    Y[0], x[0] = Y0, y[X]
+    phi[0] = r * abs(Y0) ** (r - 1)
+    v[0] = phi[0] * Y0 / r
+    F[0] = force(q, x[0], y[T])
+    for i in range(1, STAGES + 1):
+        c = _POINTS[i] * h
+        Y[i] = Y0 + (force(q, x[0] + c * v[0], y[T] + c) - F[0]) / q[ALPHA]
+    count, converged = 1 + STAGES, False
+    for _ in range(10):
+        _stages(q, y[T], h, r, Y, v, phi, F, x, spring)
+        count += STAGES
+        largest = 0.0
+        for i in range(STAGES):
+            residual = v[i + 1] - v[0]
+            for j in range(STAGES):
+                residual -= h * _A[i, j] * (F[j + 1] - q[ALPHA] * Y[j + 1])
+                mixed = 0.0
+                for k in range(STAGES):
+                    mixed += _A[i, k] * spring[k + 1] * _A[k, j]
+                J[i, j] = h * q[ALPHA] * _A[i, j] - h * h * mixed * phi[j + 1]
+            J[i, i] += phi[i + 1]
+            rhs[i] = -residual
+            largest = max(largest, abs(Y[i + 1]))
+        _factor(J, order)
+        _solve(J, order, rhs)
+        change = 0.0
+        for i in range(STAGES):
+            Y[i + 1] += rhs[i]
+            change = max(change, abs(rhs[i]))
+        if converged:
+            break
+        converged = change <= 1e-7 * largest + 1e-300  # the next iterate is then exact to rounding
+    if not converged:
+        return Y0, math.inf, 0, count
+    _stages(q, y[T], h, r, Y, v, phi, F, x, spring)
+    count += STAGES
+    new[X], new[T] = x[STAGES], y[T] + h
+    friction_time, passages = _friction_time(q, h, Y)
+    new[S] = y[S] + friction_time
+    for vector in range(tangents):
+        xi, eta = XI1 + 2 * vector, ETA1 + 2 * vector
+        for i in range(STAGES):
+            rhs[i] = y[eta]
+            for j in range(STAGES):
+                rhs[i] += h * _A[i, j] * spring[j + 1] * y[xi]
+        _solve(J, order, rhs)
+        new[xi], new[eta] = y[xi], phi[STAGES] * rhs[STAGES - 1]
+        for j in range(STAGES):
+            new[xi] += h * _A[STAGES - 1, j] * phi[j + 1] * rhs[j]
+    ex, ev = 0.0, 0.0
+    for i in range(STAGES + 1):
+        ex += h * _DIFFERENCE[i] * v[i]
+        ev += h * _DIFFERENCE[i] * (F[i] - q[ALPHA] * Y[i])
+    ev *= phi[STAGES] / (phi[STAGES] + 0.1 * h * q[ALPHA])  # the relaxation damps what the estimate sees of it
+    scale = atol + rtol * math.hypot(x[STAGES], v[STAGES])
+    return Y[STAGES], math.hypot(ex, ev) / scale, passages, count
+
+
+@compiled
+def _stages(q, t, h, r, Y, v, phi, F, x, spring):
+    """Velocity, phi, position, force and stiffness at the stages (entries 1 to 5) from the damping force Y there."""
+    for i in range(1, STAGES + 1):
+        phi[i] = r * abs(Y[i]) ** (r - 1)
+        v[i] = phi[i] * Y[i] / r
+    for i in range(1, STAGES + 1):
+        x[i] = x[0]
+        for j in range(STAGES):
+            x[i] += h * _A[i - 1, j] * v[j + 1]
+        F[i] = force(q, x[i], t + _POINTS[i] * h)
+        spring[i] = stiffness(q, x[i])
+
+
+@compiled
+def _friction_time(q, h, Y):
+    """Integral of p |Y|^(1-1/p) over the step and the sign changes of Y in it; infinite if there are any."""
+    passages, before, total = 0, Y[0], 0.0
+    for g in range(_GAUSS + 1):
+        value = Y[STAGES]
+        if g < _GAUSS:
+            value = 0.0
+            for i in range(STAGES + 1):
+                value += _FINE[g, i] * Y[i]
+        if value * before < 0:
+            passages += 1
+        before = value
+    if passages > 0 or np.min(np.abs(Y)) == 0.0:
+        return math.inf, passages
+    for g in range(_GAUSS):
+        logarithm = 0.0
+        for i in range(STAGES + 1):
+            logarithm += _FINE[g, i] * math.log(abs(Y[i]))
+        total += h * _GW[g] * q[P] * math.exp((1 - 1 / q[P]) * logarithm)
+    return total, 0
+
+
+@compiled
+def _factor(J, order):
+    """LU factors of J in place, rows exchanged: row k with order[k]."""
+    size = order.size
+    for k in range(size):
+        best = k
+        for i in range(k + 1, size):
+            if abs(J[i, k]) > abs(J[best, k]):
+                best = i
+        order[k] = best
+        for j in range(size):
+            J[k, j], J[best, j] = J[best, j], J[k, j]
+        for i in range(k + 1, size):
+            J[i, k] /= J[k, k]
+            for j in range(k + 1, size):
+                J[i, j] -= J[i, k] * J[k, j]
+
+
+@compiled
+def _solve(J, order, b):
+    """Solve with the factors, in place."""
+    size = order.size
+    for k in range(size):
+        b[k], b[order[k]] = b[order[k]], b[k]
+    for k in range(size):
+        for j in range(k):
+            b[k] -= J[k, j] * b[j]
+    for k in range(size - 1, -1, -1):
+        for j in range(k + 1, size):
+            b[k] -= J[k, j] * b[j]
+        b[k] /= J[k, k]
+
+
+@compiled
+def at_rest(q, x, F, Y):
+    """Whether force and damping are both below the rounding error of the force: nothing moves that can be computed."""
+    noise = 1e-13 * (abs(q[DELTA] * x) + abs(q[GAMMA] * x**3) + q[MU])
+    return abs(F) <= noise and q[ALPHA] * abs(Y) <= noise

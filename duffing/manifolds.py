@@ -1,0 +1,116 @@
+"""The stable and unstable manifolds of the saddle orbit as curves in the stroboscopic plane.
+
+A point of W^U at time t has left the saddle orbit's neighbourhood some time ago: it is launched at a small distance along
+the unstable direction and carried to t. The flight time is the curve's parameter, and the stroboscopic map adds one
+period to it. The launch misses W^U by the square of its distance, across it, and the flow contracts that by about the
+distance once more on the way out. W^S is the same with time reversed.
+"""
+
+import numpy as np
+
+from . import checks
+from .errors import ConvergenceError
+from .flow import integrate
+from .oscillator import Duffing
+from .saddle import saddle_frame, units
+
+UNSTABLE, STABLE = 0, 1
+DISTANCE = 1e-6  # of the launch from the saddle orbit, in the unit of length sqrt(-delta/gamma)
+_MOST = 100_000  # points of a curve
+
+
+def unstable_manifold(osc, side=1, length=6.0, phase=0.0, spacing=0.02, turn=0.1):
+    """One branch of W^U of the saddle orbit at a phase, as a curve (2, n) that starts in the saddle orbit.
+
+    osc : Duffing, a single oscillator with delta < 0 < gamma
+    side : 1 for the branch that leaves towards x > 0, -1 for the other
+    length : arc length of the curve
+    phase : omega t modulo 2 pi at which the plane cuts the flow (radian)
+    spacing, turn : the greatest distance of neighbouring points, and the greatest angle (radian) between neighbouring
+        chords unless they are shorter than spacing / 100
+    Lengths are of (x, v) in the units in which delta = -1, gamma = 1.
+
+    Raises ValueError for invalid input, NoSaddleOrbitError as `saddle_orbit`, DivergedError or ConvergenceError where
+    the branch cannot be followed so far.
+    """
+    return _curve(osc, UNSTABLE, side, length, phase, spacing, turn)
+
+
+def stable_manifold(osc, side=1, length=6.0, phase=0.0, spacing=0.02, turn=0.1):
+    """One branch of W^S: arguments, result and errors as for `unstable_manifold`."""
+    return _curve(osc, STABLE, side, length, phase, spacing, turn)
+
+
+def launch(frame, kind, t, side=1):
+    """Points on W^U (kind UNSTABLE) or W^S (STABLE) at DISTANCE from the saddle orbit at about the times t (n, N).
+
+    A launch starts at a time of the frame, before t on W^U, after t on W^S, and nearer to the saddle orbit by what the
+    flow stretches until t. Returns its time (n, N), its state (2, n, N), and the derivative of the state by t.
+    """
+    nodes = len(frame.t)
+    step = frame.t[1] - frame.t[0]
+    number = np.floor(t / step)
+    part = t / step - number  # from 0 to 1 between the two times of the frame
+    node = number.astype(int) % nodes
+    member = np.arange(t.shape[1])
+    growth = frame.growth[kind, node, member]
+    if kind == STABLE:
+        node, number, part = (node + 1) % nodes, number + 1, part - 1
+    offset = side * DISTANCE * np.exp(-growth * part) * frame.directions[kind][:, node, member]
+    return number * step, frame.states[:, node, member] + offset, -growth / step * offset
+
+
+def _curve(osc, kind, side, length, phase, spacing, turn):
+    if osc.shape:
+        raise ValueError(f"osc is a family of shape {osc.shape}: a curve belongs to a single oscillator")
+    checks.choice("side", side, (1, -1))
+    for name, value in (("length", length), ("spacing", spacing), ("turn", turn)):
+        checks.positive(name, value)
+    frame = saddle_frame(osc)
+    section = checks.parameter("phase", phase) / frame.osc.omega[0]
+    piece, total = frame.osc.period[0] / 32, 0.0
+    flight, curve = np.zeros(1), _points(frame, kind, side, section, np.zeros(1))
+    while total < length:
+        more = flight[-1] + piece * np.linspace(0, 1, 5)
+        points = np.concatenate([curve[:, -1:], _points(frame, kind, side, section, more[1:])], axis=1)
+        more, points = _refined(more, points, frame, kind, side, section, spacing, turn)
+        flight, curve = np.append(flight, more[1:]), np.append(curve, points[:, 1:], axis=1)
+        if flight.size > _MOST:
+            raise ConvergenceError(f"length = {length}: the curve needs more than {_MOST} points")
+        total = np.hypot(*np.diff(curve)).sum()
+    keep = np.append(0, np.hypot(*np.diff(curve)).cumsum()) <= length
+    return curve[:, keep] * units(osc)[:2, None]
+
+
+def _refined(flight, points, frame, kind, side, section, spacing, turn):
+    """Halve the intervals of the flight time until points are as near, and chords as aligned, as asked."""
+    while True:
+        chord = np.diff(points)
+        distance = np.hypot(*chord)
+        coarse = distance > spacing
+        heading = np.arctan2(chord[1], chord[0])
+        bend = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi) > turn
+        bent = np.append(bend, False) | np.append(False, bend)
+        coarse |= bent & (distance > spacing / 100)
+        where = np.flatnonzero(coarse)
+        if where.size == 0:
+            return flight, points
+        if flight.size + where.size > _MOST:
+            raise ConvergenceError(f"the curve needs more than {_MOST} points")
+        middle = (flight[where] + flight[where + 1]) / 2
+        flight = np.insert(flight, where + 1, middle)
+        points = np.insert(points, where + 1, _points(frame, kind, side, section, middle), axis=1)
+
+
+def _points(frame, kind, side, section, flight):
+    """States (2, n) at the time `section` of the points whose flight takes the times (n,)."""
+    sign = 1 if kind == UNSTABLE else -1
+    start, state, _ = launch(frame, kind, (section - sign * flight)[:, None], side)
+    family = Duffing(*np.repeat(frame.osc.columns(), flight.size, axis=1))
+    times = np.array([start[:, 0], np.full(flight.size, section)])
+    moving = times[0] != times[1]
+    points = state[:, :, 0]
+    if moving.any():
+        part = Duffing(*family.columns()[:, moving])
+        points[:, moving] = integrate(part, points[:, moving], times[:, moving]).states[:, 1]
+    return points

@@ -1,0 +1,35 @@
+"""What a finding is: a verdict decided by a computation, and the numbers in a sentence."""
+
+from functools import cache
+from typing import NamedTuple
+
+CONFIRMED, LIMITED, NOT_CONFIRMED, NOT_CHECKABLE = VERDICTS = (
+    "confirmed",
+    "confirmed with limits",
+    "not confirmed",
+    "not checkable",
+)
+
+
+class Finding(NamedTuple):
+    """verdict : one of VERDICTS; text : what was computed, as Markdown"""
+
+    verdict: str
+    text: str
+
+
+def finds(findings, key):
+    """Register a function without arguments as the finding on the claim `key`; it is computed once a process."""
+
+    def register(function):
+        if key in findings:
+            raise ValueError(f"key = {key!r}: has a finding already")
+        findings[key] = cache(function)
+        return findings[key]
+
+    return register
+
+
+def decide(holds, text, *, limited=False):
+    """A Finding: confirmed (with limits if `limited`) when the computation holds, else not confirmed."""
+    return Finding((LIMITED if limited else CONFIRMED) if holds else NOT_CONFIRMED, text)

@@ -1,0 +1,271 @@
+"""The paper's Runge-Kutta kernel: against exact solutions, an independent plain loop, and the laws of the flow."""
+
+import numpy as np
+import pytest
+
+from duffing import rk4
+from duffing.errors import DivergedError
+from duffing.oscillator import Duffing
+
+START = (0.45, 0.1)
+
+
+def _periods(osc, n):
+    return osc.period * np.arange(n + 1)
+
+
+def _plain_rk4(osc, state, periods, steps=500):
+    """The textbook's loop in NumPy, all members at once: states (2, periods + 1, N)."""
+    y = np.array(np.broadcast_to(np.reshape(state, (2, -1)), (2, max(1, np.prod(osc.shape, dtype=int)))), dtype=float)
+    h, out = osc.period / steps, [y]
+    for n in range(periods * steps):
+
+        def f(c, y, n=n):
+            return np.array([y[1], osc.acceleration(y[0], y[1], (n % steps + c) * h)])
+
+        k1 = f(0, y)
+        k2 = f(0.5, y + h / 2 * k1)
+        k3 = f(0.5, y + h / 2 * k2)
+        k4 = f(1, y + h * k3)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        if (n + 1) % steps == 0:
+            out.append(y)
+    return np.stack(out, axis=1)
+
+
+def _linear_oscillator(alpha, delta, mu, omega, t):
+    """Exact x of x'' + alpha x' + delta x = mu cos(omega t), start x = 1, v = 0."""
+    steady = mu / (delta - omega**2 + 1j * alpha * omega)
+    root = (-alpha + np.sqrt(complex(alpha**2 - 4 * delta))) / 2
+    # Transient Re(z exp(root t)) with x(0) = 1 - Re steady, v(0) = -Re(i omega steady).
+    a, b = 1 - steady.real, -(1j * omega * steady).real
+    z = a - 1j * (b - root.real * a) / root.imag
+    return (z * np.exp(root * t) + steady * np.exp(1j * omega * t)).real
+
+
+def test_linear_oscillator_is_solved_to_fourth_order():
+    osc = Duffing(alpha=0.3, p=1, mu=0.7, omega=1.3, delta=2.0, gamma=0.0)
+    t = np.linspace(0.0, 12.0, 7)
+    exact = _linear_oscillator(0.3, 2.0, 0.7, 1.3, t)
+    errors = [
+        np.abs(rk4.integrate(osc, (1, 0), t, steps_per_period=s).states[0, :, 0] - exact).max() for s in (50, 100)
+    ]
+    assert errors[1] < 1e-6
+    # One halving of the step leaves 1/16 of the error, up to terms of the next order in the step (about 0.1).
+    assert abs(np.log2(errors[0] / errors[1]) - 4) < 0.1
+
+
+def test_undamped_energy_is_kept_to_the_order_of_the_step():
+    osc = Duffing(alpha=0.0, mu=0.0)
+    drift = []
+    for steps in (100, 200):
+        x, v = rk4.integrate(osc, (1.3, 0.2), np.linspace(0, 10, 11), steps_per_period=steps).states
+        drift.append(np.abs(osc.energy(x, v) - osc.energy(1.3, 0.2)).max())
+    assert drift[1] < drift[0] / 12
+    assert drift[1] < 1e-6
+
+
+@pytest.mark.parametrize("p", [0.1, 0.5, 1.0, 2.0])
+def test_kernel_equals_a_plain_runge_kutta_loop_to_round_off(p):
+    osc = Duffing(alpha=0.2, p=p, mu=np.array([0.2, 0.27, 0.3]), omega=1.3, delta=-1.2, gamma=0.8)
+    ours = rk4.integrate(osc, START, _periods(osc, 2)).states
+    # 4000 stages of round-off; p < 1 amplifies it where v changes sign.
+    assert np.abs(ours - _plain_rk4(osc, START, 2)).max() < 2e-12
+
+
+def test_family_over_all_parameters_equals_its_members_one_by_one_to_the_last_bit():
+    rng = np.random.default_rng(7)
+    fields = {
+        "alpha": rng.uniform(0.05, 0.3, 9), "p": rng.choice([0.1, 0.5, 1.0, 2.0], 9), "mu": rng.uniform(0, 0.4, 9),
+        "omega": rng.choice([0.7, 1.0, 1.9], 9), "delta": rng.uniform(-1.5, -0.5, 9), "gamma": rng.uniform(0.5, 1.5, 9),
+    }  # fmt: skip
+    states = rng.uniform(-1, 1, (2, 9))
+    t = np.linspace(0.3, 9.0, 13)
+    family = rk4.integrate(Duffing(**fields), states, t, tangents=2)
+    for i in range(9):
+        alone = rk4.integrate(Duffing(**{k: v[i] for k, v in fields.items()}), states[:, i], t, tangents=2)
+        assert np.array_equal(alone.states[..., 0], family.states[..., i])
+        assert np.array_equal(alone.growth[..., 0], family.growth[..., i])
+        assert np.array_equal(alone.propagators[..., 0], family.propagators[..., i])
+
+
+@pytest.mark.parametrize("p", [0.1, 1.0])
+def test_bits_depend_neither_on_blocks_nor_on_threads_nor_on_order(p):
+    mu = np.linspace(0.2, 0.3, 77)
+
+    def run(chosen, threads):
+        osc = Duffing(p=p, mu=mu[chosen])
+        return rk4.integrate(osc, START, _periods(osc, 3), tangents=1, threads=threads)
+
+    everything = run(slice(None), 1)
+    # Two blocks on more threads; other places in the block, the vector and the padding.
+    for chosen, threads in ((slice(None), 3), (slice(None, None, -1), 2), (slice(60, None), 1), (slice(3, 4), 1)):
+        part = run(chosen, threads)
+        assert np.array_equal(part.states, everything.states[..., chosen])
+        assert np.array_equal(part.growth, everything.growth[..., chosen])
+
+
+def test_members_of_different_frequency_at_their_own_periods_share_the_phases_of_a_single_one():
+    osc = Duffing(p=0.5, mu=0.25, omega=np.array([0.6, 1.0, 1.7]))
+    t = np.arange(41)[:, None] * osc.period
+    orbit = rk4.integrate(osc, START, t)
+    for i, omega in enumerate(osc.omega):
+        alone = Duffing(p=0.5, mu=0.25, omega=omega)
+        assert np.array_equal(rk4.integrate(alone, START, _periods(alone, 40)).states[..., 0], orbit.states[..., i])
+
+
+def test_every_period_uses_the_same_phases_so_that_a_late_start_changes_nothing():
+    osc = Duffing(p=1, mu=0.25, omega=1.1)
+    early = rk4.integrate(osc, START, _periods(osc, 3)).states
+    late = rk4.integrate(osc, START, _periods(osc, 3) + 10**4 * osc.period).states
+    # The step's length h = (t1 - t0) / 500 carries the round-off of the times themselves, 1e-11 here.
+    assert np.abs(early - late).max() < 1e-10
+
+
+@pytest.mark.parametrize("omega", [0.3, 1.0, 2.7])
+def test_each_interval_takes_the_least_number_of_steps_not_longer_than_the_papers(omega, monkeypatch):
+    seen = []
+    kernel = rk4._advance
+    monkeypatch.setattr(rk4, "_advance", lambda *a: (seen.append((a[2], a[5])), kernel(*a)))
+    osc = Duffing(omega=omega)
+    longest = osc.period / 500
+    t = np.cumsum([0.0, osc.period, osc.period / 4, 0.4 * longest, 3.5 * longest, 240 * osc.period])
+    rk4.integrate(osc, START, t)
+    h, counts = seen[0]
+    assert counts.tolist() == [500, 125, 1, 4, 120000]
+    assert np.allclose(h[:, 0] * counts, np.diff(t), rtol=1e-14)
+
+
+@pytest.mark.parametrize("p", [0.1, 0.5, 1.0, 2.0])
+def test_motion_is_symmetric_under_reflection_and_half_a_period(p):
+    osc = Duffing(p=p, mu=0.21, omega=1.3)
+    t = _periods(osc, 3)
+    one = rk4.integrate(osc, START, t, tangents=1)
+    other = rk4.integrate(osc, -np.array(START), t + osc.period / 2, tangents=1)
+    assert np.abs(one.states + other.states).max() < 1e-10
+    assert np.abs(one.growth - other.growth).max() < 1e-9
+
+
+@pytest.mark.parametrize("p", [0.5, 1.0, 2.0])
+def test_tangents_equal_central_differences_of_the_flow(p):
+    osc = Duffing(alpha=0.2, p=p, mu=0.3, omega=1.2)
+    # Five times inside a stretch without a change of sign of v, where the flow is smooth for every p.
+    t = np.linspace(0.0, 0.8, 5)
+    d = 1e-5
+    starts = np.array([START, START, START, START]).T + d * np.array([[1, -1, 0, 0], [0, 0, 1, -1]])
+    orbit = rk4.integrate(osc, START, t, tangents=2)
+    ends = [rk4.integrate(osc, s, t).states[:, -1, 0] for s in starts.T]
+    difference = np.array([(ends[0] - ends[1]) / (2 * d), (ends[2] - ends[3]) / (2 * d)]).T
+    product = np.linalg.multi_dot(np.moveaxis(orbit.propagators[..., 0], 2, 0)[::-1])
+    assert np.all(orbit.states[1] > 0)
+    assert np.abs(product - difference).max() < 1e-7
+    # The QR factors of the product: growth is the logarithm of R's diagonal.
+    assert np.allclose(orbit.growth.sum(axis=1)[:, 0], np.log(np.abs(np.diag(np.linalg.qr(product)[1]))), atol=1e-12)
+
+
+@pytest.mark.parametrize("steps", [125, 250])
+def test_linear_damping_contracts_area_by_exp_minus_alpha_T(steps):
+    osc = Duffing(alpha=0.15, p=1, mu=0.27, omega=np.array([0.8, 1.3]))
+    t = np.arange(6)[:, None] * osc.period
+    orbit = rk4.integrate(osc, START, t, tangents=2, steps_per_period=steps)
+    h = osc.period / steps
+    assert np.all(np.abs(orbit.growth.sum(axis=0) + 0.15 * osc.period) < 5 * h**4)
+    determinants = np.linalg.det(np.moveaxis(orbit.propagators, (2, 3), (0, 1)))
+    assert np.allclose(determinants, np.exp(-0.15 * osc.period), rtol=5e-5, atol=0)
+
+
+def test_first_tangent_grows_alike_alone_and_in_company():
+    osc = Duffing(p=0.5, mu=np.array([0.2, 0.26]))
+    one, two = (rk4.integrate(osc, START, _periods(osc, 4), tangents=k) for k in (1, 2))
+    assert np.array_equal(one.growth[0], two.growth[0])
+    assert np.array_equal(one.states, two.states)
+
+
+def test_growth_over_one_long_interval_is_the_sum_over_short_ones_and_does_not_overflow():
+    # At the top of the potential hill the linear rate is known exactly, and exp(rate T) = exp(1236) is no double.
+    osc = Duffing(alpha=0.1, p=1, mu=0.0)
+    rate = (-0.1 + np.sqrt(0.01 + 4)) / 2
+    t = np.array([0.0, 1300.0])
+    growth = rk4.integrate(osc, (0.0, 0.0), t, tangents=1).growth[0, 0, 0]
+    transient = np.log(np.hypot(1, rate) * ((rate + 0.1) / (2 * rate + 0.1)))  # of (1, 0) along the growing direction
+    assert abs(growth - (rate * 1300.0 + transient)) < 1e-5
+
+
+def test_rest_under_power_law_damping_stays_at_rest_exactly():
+    osc = Duffing(p=np.array([0.1, 0.5, 1.5]), mu=0.0)
+    assert np.array_equal(rk4.integrate(osc, (1.0, 0.0), [0.0, 7.0]).states[:, 1], [[1.0] * 3, [0.0] * 3])
+
+
+@pytest.mark.parametrize("p", [0.1, 0.5])
+def test_a_start_from_rest_off_balance_has_finite_tangents_for_p_below_one(p):
+    orbit = rk4.integrate(Duffing(p=p, mu=0.3), (0.45, 0.0), 2 * np.pi * np.arange(3), tangents=1)
+    assert np.all(np.isfinite(orbit.growth))
+
+
+@pytest.mark.parametrize("p", [1.0, 2.0])
+def test_growth_of_two_trajectories_tends_to_the_tangents_in_proportion_to_d0(p):
+    osc = Duffing(p=p, mu=np.array([0.05, 0.1]))
+    tangent = rk4.integrate(osc, START, _periods(osc, 4), tangents=1).growth[0]
+    errors = [np.abs(rk4.two_trajectory_growth(osc, START, 4, d0=d0) - tangent).max(axis=0) for d0 in (1e-5, 1e-6)]
+    assert errors[1].shape == (2,)
+    assert np.all(errors[1] < 1e-3)
+    assert np.all(np.abs(errors[0] / errors[1] - 10) < 0.2)
+
+
+def test_companion_that_merges_gives_a_finite_upper_bound_and_starts_anew():
+    # Critical damping shrinks the separation by (1 + T or less) exp(-T), T = 4 pi, in each period: far below a unit
+    # in the last place of the motion when d0 is a few of them.
+    osc = Duffing(alpha=2.0, p=1, mu=1.0, delta=1.0, gamma=0.0, omega=0.5)
+    d0 = 1e-15
+    growth = rk4.two_trajectory_growth(osc, START, 12, d0=d0)
+    exact = np.log(1 + osc.period) - osc.period
+    assert np.all(growth >= np.log(2.0**-54 / (2 * d0)))
+    assert np.all(growth < 0)
+    assert np.all(growth > exact)
+
+
+def test_diverging_solutions_are_named():
+    osc = Duffing(delta=1.0, gamma=-1.0, mu=np.array([0.0, 0.01]))
+    with pytest.raises(DivergedError, match="1 of 2 .* mu = 0.01"):
+        rk4.integrate(osc, np.array([[0.5, 3.0], [0.0, 0.0]]), [0.0, 50.0])
+    with pytest.raises(DivergedError, match="gamma = -1"):
+        rk4.two_trajectory_growth(osc, (3.0, 0.0), 5)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"state": (0.0, np.nan)}, "state"),
+        ({"state": (0.0, 1.0, 2.0)}, "state has shape"),
+        ({"t": [0.0, 1.0, 1.0]}, "t = "),
+        ({"t": [0.0, np.inf]}, "t = "),
+        ({"t": np.zeros((2, 3))}, "t has shape"),
+        ({"t": np.array([[0.0, 1.0], [1.0, 0.5]])}, "t = "),
+        ({"t": []}, "t has shape"),
+        ({"tangents": 3}, "tangents = 3"),
+        ({"tangents": -1}, "tangents = -1"),
+        ({"steps_per_period": 0}, "steps_per_period = 0"),
+        ({"steps_per_period": 10.5}, "steps_per_period = 10.5"),
+        ({"threads": 0}, "threads = 0"),
+    ],
+)
+def test_invalid_input_is_named(change, message):
+    arguments = {"osc": Duffing(mu=np.array([0.1, 0.2])), "state": START, "t": [0.0, 1.0]} | change
+    with pytest.raises(ValueError, match=message):
+        rk4.integrate(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"), [({"periods": 0}, "periods = 0"), ({"d0": 0.0}, "d0 = 0"), ({"d0": 1e-30}, "d0 = 1e-30")]
+)
+def test_invalid_input_to_two_trajectories_is_named(change, message):
+    with pytest.raises(ValueError, match=message):
+        rk4.two_trajectory_growth(**({"osc": Duffing(), "state": START, "periods": 2} | change))
+
+
+def test_input_is_not_changed():
+    state, t = np.array([[0.1, 0.2], [0.3, 0.4]]), np.array([0.0, 1.0, 2.0])
+    kept = state.copy(), t.copy()
+    rk4.integrate(Duffing(mu=np.array([0.1, 0.2])), state, t, tangents=2)
+    assert np.array_equal(state, kept[0])
+    assert np.array_equal(t, kept[1])
