@@ -24,6 +24,7 @@ import numpy as np
 from .friction_time import ALPHA, DELTA, ETA1, GAMMA, MU, XI1, P, S, T, X, compiled, force, stiffness
 
 STAGES = 5
+SLOW = 0.3  # near the slow branch |F - alpha Y| is less than this part of the force
 _GAUSS = 8
 
 
@@ -63,7 +64,7 @@ def creep(q, y, Y0, h, tangents, rtol, atol, new):
     """One step of h > 0 in time from y, where the damping force is Y0: new (its entry W untouched) is the state there.
 
     Returns the damping force at the end, the estimated error (1 = just tolerable; infinite: the iteration failed), the
-    passages of Y through zero and the number of force evaluations.
+    passages of Y through zero (-1 if the force is not zero there: a turn, no creep), the number of force evaluations.
     """
     r = 1 / q[P]
     Y, v, phi = np.empty(STAGES + 1), np.empty(STAGES + 1), np.empty(STAGES + 1)
@@ -106,8 +107,10 @@ def creep(q, y, Y0, h, tangents, rtol, atol, new):
     _stages(q, y[T], h, r, Y, v, phi, F, x, spring)
     count += STAGES
     new[X], new[T] = x[STAGES], y[T] + h
-    friction_time, passages = _friction_time(q, h, Y)
-    new[S] = y[S] + friction_time
+    new[S] = y[S] + _friction_time(q, h, Y)
+    passages = _passages(Y)
+    if passages > 0 and (passages != _passages(F) or abs(F[0] - q[ALPHA] * Y0) > SLOW * abs(F[0])):
+        passages = -1
     for vector in range(tangents):
         xi, eta = XI1 + 2 * vector, ETA1 + 2 * vector
         for i in range(STAGES):
@@ -143,25 +146,32 @@ def _stages(q, t, h, r, Y, v, phi, F, x, spring):
 
 @compiled
 def _friction_time(q, h, Y):
-    """Integral of p |Y|^(1-1/p) over the step and the sign changes of Y in it; infinite if there are any."""
-    passages, before, total = 0, Y[0], 0.0
+    """Integral of p |Y|^(1-1/p) over the step; infinite for p <= 1/2 if Y vanishes in it."""
+    total, steep = 0.0, q[P] <= 0.5
+    if steep and (_passages(Y) > 0 or np.min(np.abs(Y)) == 0.0):
+        return math.inf
+    for g in range(_GAUSS):
+        value = 0.0
+        for i in range(STAGES + 1):
+            value += _FINE[g, i] * (math.log(abs(Y[i])) if steep else Y[i])
+        total += h * _GW[g] * q[P] * (math.exp((1 - 1 / q[P]) * value) if steep else abs(value) ** (1 - 1 / q[P]))
+    return total
+
+
+@compiled
+def _passages(values):
+    """Sign changes over the step of the polynomial with these values at the start and the stages."""
+    count, before = 0, values[0]
     for g in range(_GAUSS + 1):
-        value = Y[STAGES]
+        value = values[STAGES]
         if g < _GAUSS:
             value = 0.0
             for i in range(STAGES + 1):
-                value += _FINE[g, i] * Y[i]
+                value += _FINE[g, i] * values[i]
         if value * before < 0:
-            passages += 1
+            count += 1
         before = value
-    if passages > 0 or np.min(np.abs(Y)) == 0.0:
-        return math.inf, passages
-    for g in range(_GAUSS):
-        logarithm = 0.0
-        for i in range(STAGES + 1):
-            logarithm += _FINE[g, i] * math.log(abs(Y[i]))
-        total += h * _GW[g] * q[P] * math.exp((1 - 1 / q[P]) * logarithm)
-    return total, 0
+    return count
 
 
 @compiled

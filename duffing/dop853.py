@@ -50,9 +50,9 @@ def advance(q, y, h, tangents, K, new):
 @compiled
 def error(q, y, new, h, K, rtol, atol):
     """Estimated error of the step, 1 = just tolerable: of x and v at fixed time, relative to the state's length."""
-    phi = 1.0 if q[M] == 1.0 else q[M] * K[12, T] / (1 - K[12, T])  # K[12, T] = phi / (m + phi)
-    v = phi * new[W] / q[M]
-    acceleration = K[12, W] if q[M] == 1.0 else K[12, W] * (q[M] + phi)
+    v = K[12, X] / K[12, T] if K[12, T] > 0.0 else 0.0
+    phi = q[M] * v / new[W] if new[W] != 0.0 else 1.0 * (q[M] == 1.0)
+    acceleration = K[12, W] * (1.0 if q[M] == 1.0 else q[M] + phi)
     scale = atol + rtol * math.hypot(new[X], v)
     squares5, squares3 = 0.0, 0.0
     for order in (5, 3):

@@ -144,34 +144,3 @@ def fig6(t, x, settled):
     axes.set_xlim(t[0], t[-1])
     fig.legend(loc="outside upper center", ncols=2)
     return fig
-
-
-@styled
-def scan_map(alpha, omega, criteria, chosen):
-    """Which (alpha, omega) agree with the text, one small map for each criterion: dict of boolean arrays (a, w)."""
-    fig = PageFigure(figsize=(6.8, 5.2))
-    panels = fig.subplots(2, -(-len(criteria) // 2), sharex=True, sharey=True)
-    for axes, (name, agrees) in zip(panels.flat, criteria.items(), strict=False):
-        i, j = np.nonzero(agrees)
-        axes.plot(omega[j], alpha[i], "s", color=BLUE, markersize=4)
-        axes.plot(*chosen[::-1], "o", color=VERMILION, fillstyle="none", markersize=12, markeredgewidth=1.8)
-        axes.set_title(f"{name}: {agrees.sum()} of {agrees.size}", fontsize=10)
-        axes.set(xlim=(omega[0] - 0.05, omega[-1] + 0.05), ylim=(alpha[0] - 0.02, alpha[-1] + 0.02))
-    for axes in panels.flat[len(criteria) :]:
-        axes.set_axis_off()
-    fig.supxlabel(r"forcing frequency $\omega$ (dimensionless)", fontsize=11)
-    fig.supylabel(r"damping coefficient $\alpha$ (dimensionless)", fontsize=11)
-    return fig
-
-
-@styled
-def headline(p, mu_c, p_tangency, tangency, p_onset, onset):
-    """Fig. 3b with the computed homoclinic tangencies on the line."""
-    fig, axes = panel("damping exponent $p$", r"forcing amplitude $\mu$ (dimensionless)")
-    axes.plot(p, mu_c, color=BLACK, label=r"critical amplitude $\mu_c$, Eq. 13")
-    axes.plot(p_tangency, tangency, "x", color=BLUE, markersize=7, markeredgewidth=2, label="homoclinic tangency, computed")
-    found = np.isfinite(onset)
-    axes.plot(p_onset[found], onset[found], "o", color=VERMILION, fillstyle="none", label=r"onset of $\lambda_1 > 0.1$")
-    axes.set(xlim=(0, p[-1]), ylim=(0, None))
-    axes.legend()
-    return fig

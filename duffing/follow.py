@@ -5,7 +5,7 @@ Which of the two is taken decides what a result costs, not what it is: both keep
 
 import math
 
-from .creep import at_rest, creep
+from .creep import SLOW, at_rest, creep
 from .dop853 import advance, error, land
 from .friction_time import (
     ALPHA,
@@ -31,21 +31,23 @@ from .friction_time import (
 DONE, DIVERGED, TOO_MANY_STEPS, PAST_UNKNOWN, STUCK, NO_CROSSING, _CREEPS, _MOVES = range(8)
 # What a trajectory carries from one target to the next: explicit step in sigma, creep step in time (0: not creeping).
 MOVE, CREEP = range(2)
+# How it is followed: tolerances, bound on the steps to a target, relaxation times a step above which a creep begins.
+RTOL, ATOL, MAX_STEPS, SWITCH = range(4)
 # What is counted: force evaluations, passages through zero force while creeping, steps.
 EVALUATIONS, PASSAGES, STEPS = range(3)
 # Its tangent frame since the last target: log R11, log R22, R12 / R11.
 LOG1, LOG2, SHEAR = range(3)
 
-_ESCAPED = 1e60  # |x| that only solutions reach which become infinite in finite time
+_ESCAPED = 1e30  # |x| that only solutions reach which become infinite in finite time
 # An explicit step is at most this part of the linearised motion's fastest time: the tangent's error is then below
 # 1e-9 even where the state itself (at rest, creeping) would allow any step.
 _FRESH = 0.7
-_STIFF, _SOFT = 0.6, 0.2  # relaxation times a step above which a creep begins, below which it ends
+_LEAVE = 1 / 3  # a creep ends at this part of the relaxation times a step with which it begins
 _CREEP_STEP = 1 / 16  # of a forcing period at most, so that no passage of the force through zero is overlooked
 
 
 @compiled
-def follow(q, y, component, target, limit, carry, tangents, rtol, atol, max_steps, frame, tally, K, new):
+def follow(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new):
     """Carry y until time (component T) or w (component W) equals the target; carry[MOVE] has the sign of the time.
 
     For a turning point (component W, target 0) limit = (least x, longest time). Returns the status; y[S] and frame go
@@ -54,31 +56,27 @@ def follow(q, y, component, target, limit, carry, tangents, rtol, atol, max_step
     tally[STEPS] = 0
     while True:
         if carry[CREEP] > 0.0:
-            status = _creep_on(
-                q, y, component, target, limit, carry, tangents, rtol, atol, max_steps, frame, tally, new
-            )
+            status = _creep_on(q, y, component, target, limit, carry, tangents, control, frame, tally, new)
         else:
-            status = _move_on(
-                q, y, component, target, limit, carry, tangents, rtol, atol, max_steps, frame, tally, K, new
-            )
+            status = _move_on(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new)
         if status < _CREEPS:
             orthonormalise(y, tangents, frame, _log_area(y, tangents))
             return status
 
 
 @compiled
-def _move_on(q, y, component, target, limit, carry, tangents, rtol, atol, max_steps, frame, tally, K, new):
+def _move_on(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new):
     """Explicit steps until the target or a creep."""
     h, gain, rejected = carry[MOVE], 0.0, False
     rate(q, y, tangents, K[0])
     tally[EVALUATIONS] += 1
-    while tally[STEPS] < max_steps:
+    while tally[STEPS] < control[MAX_STEPS]:
         tally[STEPS] += 1
         if q[M] == 1.0 and component == T and abs(target - y[T]) < abs(h):
             carry[MOVE], h = h, target - y[T]
         advance(q, y, h, tangents, K, new)
         tally[EVALUATIONS] += 12
-        e = error(q, y, new, h, K, rtol, atol)
+        e = error(q, y, new, h, K, control[RTOL], control[ATOL])
         if not e <= 1.0:
             h *= max(0.2, 0.9 * e**-0.125) if e < 1e300 else 0.2
             rejected = True
@@ -86,6 +84,7 @@ def _move_on(q, y, component, target, limit, carry, tangents, rtol, atol, max_st
         exact = component == T and abs(new[T] - target) <= 4e-16 * max(1.0, abs(target))
         passed = abs(new[T]) > abs(target) if component == T else y[W] * new[W] < 0
         if exact or passed:
+            behind, its_rate = new.copy(), K[12].copy()
             if exact:
                 new[T] = target
             else:
@@ -94,8 +93,7 @@ def _move_on(q, y, component, target, limit, carry, tangents, rtol, atol, max_st
                 y[:] = new
                 carry[MOVE] = math.copysign(max(abs(h), abs(carry[MOVE])) if q[M] == 1.0 else abs(h), h)
                 return DONE
-            advance(q, y, h, tangents, K, new)  # a turning point that was not asked for: on behind it
-            tally[EVALUATIONS] += 12
+            new[:], K[12] = behind, its_rate  # a turning point that was not asked for: on behind it
         y[:] = new
         K[0] = K[12]
         relaxations = q[ALPHA] * K[0, S] * abs(h)
@@ -113,35 +111,35 @@ def _move_on(q, y, component, target, limit, carry, tangents, rtol, atol, max_st
         if q[P] >= 1.0:
             continue
         resting = at_rest(q, y[X], q[M] * K[0, W], q[M] * K[0, S] * y[W] / q[N])  # phi = 0 there
-        if h > 0 and (relaxations > _STIFF or resting):
-            carry[MOVE], carry[CREEP] = h, abs(h) * K[0, T]
-            if resting:
-                carry[CREEP] = _CREEP_STEP / q[OMEGA]
+        slow = abs(K[0, W]) < SLOW * q[ALPHA] * K[0, S] * abs(y[W]) / q[N]
+        if h > 0 and ((slow and relaxations > control[SWITCH]) or resting):
+            carry[MOVE], carry[CREEP] = h, max(h * K[0, T], 1e-6 / q[OMEGA])  # the first can underflow
             return _CREEPS
         if h < 0:
             # Backward, the slow branch repels. What stays on it that long has amplified its error beyond use.
-            slow = abs(K[0, W]) < 0.1 * q[ALPHA] * K[0, S] * abs(y[W]) / q[N]
             gain = gain + relaxations if slow else 0.0
-            if gain > max(3.0, math.log(1e-4 / rtol)) or resting:
+            if gain > max(3.0, math.log(1e-4 / control[RTOL])) or resting:
                 return PAST_UNKNOWN
     return TOO_MANY_STEPS
 
 
 @compiled
-def _creep_on(q, y, component, target, limit, carry, tangents, rtol, atol, max_steps, frame, tally, new):
+def _creep_on(q, y, component, target, limit, carry, tangents, control, frame, tally, new):
     """Implicit steps until the target, or until a step is short enough for the explicit method."""
     power = powers(q, y[W])[1]
     Y = power * y[W]
     orthonormalise(y, tangents, frame, _log_area(y, tangents))
-    while tally[STEPS] < max_steps:
+    while tally[STEPS] < control[MAX_STEPS]:
         tally[STEPS] += 1
         left = (target if component == T else limit[1]) - y[T]
         h = min(carry[CREEP], left, _CREEP_STEP * 2 * math.pi / q[OMEGA])
         resting = at_rest(q, y[X], force(q, y[X], y[T]), Y)
-        end, e, passages, evaluations = creep(q, y, Y, h, tangents, rtol, atol, new)
+        end, e, passages, evaluations = creep(q, y, Y, h, tangents, control[RTOL], control[ATOL], new)
         tally[EVALUATIONS] += evaluations
-        if passages > 0 and q[P] >= 0.5 and not resting:
-            e = math.inf  # a passage in finite friction time: for explicit steps to resolve
+        if q[P] > 0.5 and resting:
+            passages = 0
+        if passages < 0 or (passages > 0 and q[P] > 0.5):
+            e = math.inf  # a turn, or a passage in finite friction time: for explicit steps to resolve
         if e <= 1.0:
             if passages > 0 and component == W:
                 return STUCK
@@ -160,7 +158,7 @@ def _creep_on(q, y, component, target, limit, carry, tangents, rtol, atol, max_s
             y[T] = target
             return DONE
         phi, power = powers(q, y[W])
-        if carry[CREEP] * q[ALPHA] * q[N] * power < _SOFT * phi and not resting:
+        if carry[CREEP] * q[ALPHA] * q[N] * power < _LEAVE * control[SWITCH] * phi and not resting:
             carry[MOVE], carry[CREEP] = carry[CREEP] / phi * (q[M] + phi), 0.0
             return _MOVES
     return TOO_MANY_STEPS

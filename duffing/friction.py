@@ -78,7 +78,7 @@ class TurningPoint(NamedTuple):
     dx: np.ndarray | None = None
 
 
-def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_000, threads=None):
+def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_000, switch=0.6, threads=None):
     """Solutions at the times t, each step's error of (x, v) below atol + rtol |(x, v)|.
 
     Parameters
@@ -88,6 +88,8 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
     t : (n,) for all members or (n, N), increasing or decreasing times, met exactly
     tangents : 0, 1 or 2 tangent vectors; growth and propagators are of each interval. The state does not depend on it.
     max_steps : for each interval
+    switch : relaxation times an explicit step, 0 < switch <= 0.6, above which a creep is followed by implicit steps;
+        the cost depends on it, the result does not
     threads : at most so many at once (default: the processors); the result is the same to the last bit
 
     Returns
@@ -106,7 +108,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
     tangents = checks.count("tangents", tangents, least=0)
     if tangents > 2:
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
-    rtol, atol, max_steps = _tolerances(rtol, atol, max_steps)
+    control = _control(rtol, atol, max_steps, switch)
 
     n = t.shape[1]
     q = parameters(columns)
@@ -120,7 +122,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
 
     def run(part):
         _orbits(
-            q[part], t[part], tangents, rtol, atol, max_steps,
+            q[part], t[part], tangents, control,
             states[part], frames[part], angles[part], friction_time[part], annihilations[part],
             evaluations[part], status[part],
         )  # fmt: skip
@@ -166,7 +168,7 @@ def to_turning_point(
     t0 = np.broadcast_to(t0.ravel(), size)
     if direction not in (1, -1):
         raise ValueError(f"direction = {direction!r}: must be 1 or -1")
-    rtol, atol, max_steps = _tolerances(rtol, atol, max_steps)
+    control = _control(rtol, atol, max_steps)
     longest = np.broadcast_to(
         100 * np.pi / columns[OMEGA] if within is None else checks.positive("within", within), size
     )
@@ -178,8 +180,8 @@ def to_turning_point(
 
     def run(part):
         _turning_points(
-            q[part], state[:, part], direction, float(beyond), longest[part], 2 * bool(derivatives), rtol, atol,
-            max_steps, found[:, part], derivative[:, :, part], status[part],
+            q[part], state[:, part], direction, float(beyond), longest[part], 2 * bool(derivatives), control,
+            found[:, part], derivative[:, :, part], status[part],
         )  # fmt: skip
 
     _parallel(run, size, threads)
@@ -188,21 +190,18 @@ def to_turning_point(
 
 
 @compiled
-def _orbits(
-    q, times, tangents, rtol, atol, max_steps, states, frames, angles, friction_time, annihilations, evaluations, status
-):
-    K, y, new, carry, tally = _workspace()
+def _orbits(q, times, tangents, control, states, frames, angles, friction_time, annihilations, evaluations, status):
+    K, y, new, carry, tally, frame = _workspace()
     for i in range(len(q)):
         q[i, START] = times[i, 0]
         _start(q[i], states[i, 0, 0], states[i, 1, 0], y, carry)
         tally[:] = 0
         for j in range(times.shape[1] - 1):
-            q[i, START], y[T], y[S] = times[i, j], 0.0, 0.0
+            q[i, START], y[T], y[S], frame[:] = times[i, j], 0.0, 0.0, 0.0
             span, before = times[i, j + 1] - times[i, j], tally[PASSAGES]
             carry[MOVE] = math.copysign(carry[MOVE], span)
-            status[i] = follow(
-                q[i], y, T, span, (0.0, 0.0), carry, tangents, rtol, atol, max_steps, frames[i, :, j], tally, K, new
-            )
+            status[i] = follow(q[i], y, T, span, (0.0, 0.0), carry, tangents, control, frame, tally, K, new)
+            frames[i, :, j] = frame
             if status[i] != DONE:
                 break
             states[i, 0, j + 1], states[i, 1, j + 1] = y[X], velocity(q[i], y[W])
@@ -212,15 +211,14 @@ def _orbits(
 
 
 @compiled
-def _turning_points(q, state, direction, beyond, longest, tangents, rtol, atol, max_steps, found, derivative, status):
-    K, y, new, carry, tally = _workspace()
-    frame = np.zeros(3)
+def _turning_points(q, state, direction, beyond, longest, tangents, control, found, derivative, status):
+    K, y, new, carry, tally, frame = _workspace()
     for i in range(len(q)):
         _start(q[i], state[0, i], state[1, i], y, carry)
         y[T], y[S], frame[:] = 0.0, 0.0, 0.0
         carry[MOVE] *= direction
         limit = (beyond, longest[i])
-        status[i] = follow(q[i], y, W, 0.0, limit, carry, tangents, rtol, atol, max_steps, frame, tally, K, new)
+        status[i] = follow(q[i], y, W, 0.0, limit, carry, tangents, control, frame, tally, K, new)
         found[0, i], found[1, i] = q[i, START] + y[T], y[X]
         r11, r22 = math.exp(frame[LOG1]), math.exp(frame[LOG2])
         # The tangent map is Q R with Q the rotation by the frame's angle: rows of (x, v).
@@ -232,7 +230,7 @@ def _turning_points(q, state, direction, beyond, longest, tangents, rtol, atol, 
 
 @compiled
 def _workspace():
-    return np.zeros((STAGES, 8)), np.zeros(8), np.zeros(8), np.zeros(2), np.zeros(3, dtype=np.int64)
+    return np.zeros((STAGES, 8)), np.zeros(8), np.zeros(8), np.zeros(2), np.zeros(3, dtype=np.int64), np.zeros(3)
 
 
 @compiled
@@ -275,8 +273,11 @@ def _monotone(t):
     return -checks.times(-t) if backward else checks.times(t)
 
 
-def _tolerances(rtol, atol, max_steps):
-    return checks.positive("rtol", rtol), checks.positive("atol", atol), checks.count("max_steps", max_steps)
+def _control(rtol, atol, max_steps, switch=0.6):
+    switch = checks.positive("switch", switch)
+    if switch > 0.6:
+        raise ValueError(f"switch = {switch}: must be a number in (0, 0.6]")
+    return checks.positive("rtol", rtol), checks.positive("atol", atol), checks.count("max_steps", max_steps), switch
 
 
 def _parallel(run, size, threads):

@@ -1,9 +1,9 @@
 """The stable and unstable manifolds of the saddle orbit as curves in the stroboscopic plane.
 
-A point of W^U at time t has left the saddle orbit's neighbourhood some time ago: it is launched at a small distance along
-the unstable direction and carried to t. The flight time is the curve's parameter, and the stroboscopic map adds one
-period to it. The launch misses W^U by the square of its distance, across it, and the flow contracts that by about the
-distance once more on the way out. W^S is the same with time reversed.
+A point of W^U at time t has left the saddle orbit's neighbourhood some time ago: it is launched at a small distance
+along the unstable direction and carried to t. The flight time is the curve's parameter, and the stroboscopic map adds
+one period to it. The launch misses W^U by the square of its distance, across it, and the flow contracts that by about
+the distance once more on the way out. W^S is the same with time reversed.
 """
 
 import numpy as np
@@ -41,18 +41,18 @@ def stable_manifold(osc, side=1, length=6.0, phase=0.0, spacing=0.02, turn=0.1):
     return _curve(osc, STABLE, side, length, phase, spacing, turn)
 
 
-def launch(frame, kind, t, side=1):
-    """Points on W^U (kind UNSTABLE) or W^S (STABLE) at DISTANCE from the saddle orbit at about the times t (n, N).
+def launch(frame, kind, t, member=0, side=1):
+    """Points on W^U (kind UNSTABLE) or W^S (STABLE) at DISTANCE from the saddle orbit at about the times t (n,).
 
+    member : (n,) number of the frame's member that each point belongs to
     A launch starts at a time of the frame, before t on W^U, after t on W^S, and nearer to the saddle orbit by what the
-    flow stretches until t. Returns its time (n, N), its state (2, n, N), and the derivative of the state by t.
+    flow stretches until t. Returns its time (n,), its state (2, n) and the derivative of the state by t (2, n).
     """
     nodes = len(frame.t)
-    step = frame.t[1] - frame.t[0]
+    step = np.broadcast_to((frame.t[1] - frame.t[0])[member], t.shape)
     number = np.floor(t / step)
-    part = t / step - number  # from 0 to 1 between the two times of the frame
+    part = t / step - number  # from 0 to 1 between two times of the frame
     node = number.astype(int) % nodes
-    member = np.arange(t.shape[1])
     growth = frame.growth[kind, node, member]
     if kind == STABLE:
         node, number, part = (node + 1) % nodes, number + 1, part - 1
@@ -104,13 +104,10 @@ def _refined(flight, points, frame, kind, side, section, spacing, turn):
 
 def _points(frame, kind, side, section, flight):
     """States (2, n) at the time `section` of the points whose flight takes the times (n,)."""
-    sign = 1 if kind == UNSTABLE else -1
-    start, state, _ = launch(frame, kind, (section - sign * flight)[:, None], side)
-    family = Duffing(*np.repeat(frame.osc.columns(), flight.size, axis=1))
-    times = np.array([start[:, 0], np.full(flight.size, section)])
-    moving = times[0] != times[1]
-    points = state[:, :, 0]
+    start, points, _ = launch(frame, kind, section - flight if kind == UNSTABLE else section + flight, side=side)
+    moving = start != section
+    times = np.array([start[moving], np.full(moving.sum(), section)])
     if moving.any():
-        part = Duffing(*family.columns()[:, moving])
-        points[:, moving] = integrate(part, points[:, moving], times[:, moving]).states[:, 1]
+        family = Duffing(*np.repeat(frame.osc.columns(), moving.sum(), axis=1))
+        points[:, moving] = integrate(family, points[:, moving], times).states[:, 1]
     return points

@@ -9,6 +9,7 @@ second is a polynomial of degree 8. Both are built in more than double precision
 """
 
 import math
+import threading
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -19,7 +20,11 @@ from numba.extending import intrinsic
 
 DEGREE = 8
 MOST_BITS = 10  # a table of 2048 x 2^10 doubles, 16 MB: enough for |q| up to about 200
-_PRECISION = 120  # of the set-up, in bits
+_PRECISION = 120  # bits of the table's recurrence; all else has twice as many
+# A context of its own, and a lock: mpmath's global precision belongs to all threads at once.
+_mp = mpmath.MPContext()
+_mp.prec = 2 * _PRECISION
+_LOCK = threading.Lock()
 
 
 class Power(NamedTuple):
@@ -39,43 +44,44 @@ class Power(NamedTuple):
     coefficients: tuple
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)
 def power(q, least=2.0**-1022):
     """Set up |v|^q for a finite q, with |v| < least held at least (2^-1022 at the lowest: subnormal numbers).
 
     Raises ValueError where |q| is so large that no table of reasonable size gives it to a few units in the last place.
     """
-    with mpmath.workprec(_PRECISION):
+    with _LOCK:
         bits = next((k for k in range(4, MOST_BITS + 1) if _remainder(q, k) < 2.0**-54), None)
         if bits is None or not least >= 2.0**-1022:
             raise ValueError(f"q = {q}, least = {least}: must be |q| < about 200 and least >= 2^-1022")
         cells = 2**bits
         # A cell's middle, rounded so that its reciprocal is the double stored.
-        reciprocals = [float(1 / (1 + (mpmath.mpf(j) + 0.5) / cells)) for j in range(cells)]
-        mantissas = [float(mpmath.mpf(c) ** -mpmath.mpf(q)) for c in reciprocals]
-        coefficients = tuple(map(float, _interpolate(lambda r: (1 + r) ** mpmath.mpf(q), mpmath.ldexp(1, -bits - 1))))
+        reciprocals = [float(1 / (1 + (_mp.mpf(j) + 0.5) / cells)) for j in range(cells)]
+        mantissas = [float(_mp.mpf(c) ** -_mp.mpf(q)) for c in reciprocals]
+        coefficients = tuple(map(float, _interpolate(lambda r: (1 + r) ** _mp.mpf(q), _mp.ldexp(1, -bits - 1))))
+        binary = _binary_powers(q)
     with np.errstate(over="ignore", under="ignore"):
-        table = np.outer(_binary_powers(q), mantissas).ravel()
+        table = np.outer(binary, mantissas).ravel()
     return Power(float(least), np.uint64(bits), table, np.array(reciprocals), coefficients)
 
 
 def _remainder(q, bits):
     """Error bound of interpolating (1 + r)^q at DEGREE + 1 Chebyshev points of |r| <= h = 2^-(bits + 1)."""
     n = DEGREE + 1
-    return abs(mpmath.binomial(q, n)) * 2 * mpmath.ldexp(1, -(bits + 2) * n) * (1 + abs(q) / 2**bits)
+    return abs(_mp.binomial(q, n)) * 2 * _mp.ldexp(1, -(bits + 2) * n) * (1 + abs(q) / 2**bits)
 
 
 def _interpolate(function, h):
     """Coefficients, constant first, of the polynomial through the Chebyshev points of [-h, h] (Newton's form)."""
     n = DEGREE + 1
-    nodes = [h * mpmath.cospi(mpmath.mpf(2 * i + 1) / (2 * n)) for i in range(n)]
+    nodes = [h * _mp.cospi(_mp.mpf(2 * i + 1) / (2 * n)) for i in range(n)]
     divided = [function(r) for r in nodes]
     for order in range(1, n):
         for i in range(n - 1, order - 1, -1):
             divided[i] = (divided[i] - divided[i - 1]) / (nodes[i] - nodes[i - order])
-    coefficients = [mpmath.mpf(0)] * n
+    coefficients = [_mp.mpf(0)] * n
     for i in range(n - 1, -1, -1):  # c(r) <- c(r) (r - node) + divided difference
-        shifted = [mpmath.mpf(0), *coefficients[:-1]]
+        shifted = [_mp.mpf(0), *coefficients[:-1]]
         coefficients = [up - nodes[i] * down for up, down in zip(shifted, coefficients, strict=True)]
         coefficients[0] += divided[i]
     return coefficients
@@ -86,12 +92,11 @@ def _binary_powers(q):
 
     Repeated multiplication by 2^q in integers of _PRECISION bits, mantissa and exponent apart: no range to leave.
     """
-    with mpmath.workprec(2 * _PRECISION):
-        whole = math.floor(q)
-        step = int(mpmath.ldexp(mpmath.mpf(2) ** (mpmath.mpf(q) - whole), _PRECISION))
-        start = mpmath.mpf(q) * -1023
-        exponent = int(mpmath.floor(start))
-        mantissa = int(mpmath.ldexp(mpmath.mpf(2) ** (start - exponent), _PRECISION))
+    whole = math.floor(q)
+    step = int(_mp.ldexp(_mp.mpf(2) ** (_mp.mpf(q) - whole), _PRECISION))
+    start = _mp.mpf(q) * -1023
+    exponent = int(_mp.floor(start))
+    mantissa = int(_mp.ldexp(_mp.mpf(2) ** (start - exponent), _PRECISION))
     values = np.empty(2048)
     for field in range(2048):
         power_of_two = exponent - _PRECISION

@@ -69,8 +69,8 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     if tangents > 2:
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
     n, size = len(t), columns.shape[1]
-    states, growth = np.empty((2, n, size)), np.empty((tangents, n - 1, size))
-    propagators = np.empty((2, 2, n - 1, size)) if tangents == 2 else np.empty((0, 0, 0, 0))
+    states, growth = np.empty((2, n, size)), np.zeros((tangents, n - 1, size))
+    propagators = np.tile(np.eye(2)[:, :, None, None], (n - 1, size)) if tangents == 2 else np.empty((0, 0, 0, 0))
 
     def run(members, padded, h, law, forcing):
         start = (columns[:, padded], state[:, padded], h)
@@ -100,18 +100,18 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
 
     def run(members, padded, h, law, forcing):
         lanes = np.arange(len(padded))
-        ends, nothing = np.empty((2, 2, 2, len(lanes))), (np.empty((0, 1, len(lanes))), np.empty((0, 0, 0, 0)))
+        ends, nothing = np.empty((2, 2, 2, len(lanes))), (np.empty((0, 1, 0)), np.empty((0, 0, 0, 0)))
         start = np.array([[d0], [0.0]])
         pair = np.repeat(state[None, :, padded], 2, axis=0)
         for i in range(periods):
             pair[1] = pair[0] + start
-            before = np.hypot(*(pair[1] - pair[0]))
+            before = np.sqrt(((pair[1] - pair[0]) ** 2).sum(axis=0))
             for each in range(2):
                 _advance(columns[:, padded], pair[each], h, *forcing, law, (), lanes, ends[each], *nothing)
             _check_finite(columns[:, padded], *ends)
             pair = np.ascontiguousarray(ends[:, :, 1])
             apart = pair[1] - pair[0]
-            distance = np.hypot(*apart)
+            distance = np.sqrt((apart**2).sum(axis=0))
             merged = distance == 0
             distance = np.where(merged, np.spacing(np.abs(pair[0]).max(axis=0)), distance)
             growth[i, members] = np.log(distance / before)[: len(members)]
@@ -206,7 +206,10 @@ def _workspace(typingctx):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _advance(columns, state, h, cosines, offsets, counts, law, basis, members, states, growth, propagators):
-    """Advance one block through all intervals. law: None for p = 1; basis: a tuple as long as there are tangents."""
+    """Advance one block through all intervals. law: None for p = 1; basis: a tuple as long as there are tangents.
+
+    growth comes in as zeros, propagators as identities.
+    """
     blocks = carray(_workspace(), (LANES // WIDTH, _ROWS, WIDTH))[: state.shape[1] // WIDTH]
     for lane in range(state.shape[1]):
         b, l = blocks[lane // WIDTH], lane % WIDTH
@@ -217,11 +220,7 @@ def _advance(columns, state, h, cosines, offsets, counts, law, basis, members, s
             for i in range(2):
                 b[_TANGENT + 2 * j + i, l] = b[_Q + 2 * j + i, l] = 1.0 if i == j else 0.0
     for lane, member in enumerate(members):
-        states[:, 0, member] = state[:, lane]
-        growth[:, :, member] = 0.0
-        for j in range(propagators.shape[0]):
-            for k in range(propagators.shape[1]):
-                propagators[j, k, :, member] = 1.0 if j == k else 0.0
+        states[0, 0, member], states[1, 0, member] = state[0, lane], state[1, lane]
     for i in range(len(counts)):
         for lane in range(state.shape[1]):
             blocks[lane // WIDTH, _H, lane % WIDTH] = h[i, lane]
@@ -232,9 +231,9 @@ def _advance(columns, state, h, cosines, offsets, counts, law, basis, members, s
             at += 2 * BETWEEN
             for lane, member in enumerate(members):
                 if len(basis) == 2:
-                    _propagate(blocks[lane // WIDTH], lane % WIDTH, propagators[:, :, i, member])
+                    _propagate(blocks[lane // WIDTH], lane % WIDTH, propagators, i, member)
                 if len(basis) > 0:
-                    _orthonormalise(blocks[lane // WIDTH], lane % WIDTH, basis, growth[:, i, member])
+                    _orthonormalise(blocks[lane // WIDTH], lane % WIDTH, basis, growth, i, member)
         for lane, member in enumerate(members):
             b, l = blocks[lane // WIDTH], lane % WIDTH
             states[0, i + 1, member], states[1, i + 1, member] = b[_X, l], b[_V, l]
@@ -299,28 +298,29 @@ def _use(b, l, row, k, at, weight, ahead):
 
 
 @njit(forceinline=True)
-def _propagate(b, l, propagator):
-    """propagator <- W Q^T propagator: W are the tangents now, Q what they were when last made orthonormal."""
+def _propagate(b, l, propagators, i, member):
+    """Propagator <- W Q^T propagator: W are the tangents now, Q what they were when last made orthonormal."""
     for j in range(2):
-        first = b[_Q, l] * propagator[0, j] + b[_Q + 1, l] * propagator[1, j]
-        second = b[_Q + 2, l] * propagator[0, j] + b[_Q + 3, l] * propagator[1, j]
-        for i in range(2):
-            propagator[i, j] = b[_TANGENT + i, l] * first + b[_TANGENT + 2 + i, l] * second
+        x, v = propagators[0, j, i, member], propagators[1, j, i, member]
+        first = b[_Q, l] * x + b[_Q + 1, l] * v
+        second = b[_Q + 2, l] * x + b[_Q + 3, l] * v
+        for k in range(2):
+            propagators[k, j, i, member] = b[_TANGENT + k, l] * first + b[_TANGENT + 2 + k, l] * second
 
 
 @njit(forceinline=True)
-def _orthonormalise(b, l, basis, growth):
+def _orthonormalise(b, l, basis, growth, i, member):
     """Gram-Schmidt: the tangents become orthonormal, the logarithms of the diagonal of R are added to growth."""
     xi, eta = b[_TANGENT, l], b[_TANGENT + 1, l]
     length = np.sqrt(xi * xi + eta * eta)
     xi, eta = xi / length, eta / length
-    growth[0] += np.log(length)
+    growth[0, i, member] += np.log(length)
     b[_TANGENT, l], b[_TANGENT + 1, l] = xi, eta
     b[_Q, l], b[_Q + 1, l] = xi, eta
     if len(basis) == 2:
         # In the plane the second direction is known: at right angles to the first, on the second vector's side.
         height = xi * b[_TANGENT + 3, l] - eta * b[_TANGENT + 2, l]
         side = 1.0 if height >= 0.0 else -1.0
-        growth[1] += np.log(abs(height))
+        growth[1, i, member] += np.log(abs(height))
         b[_TANGENT + 2, l], b[_TANGENT + 3, l] = -side * eta, side * xi
         b[_Q + 2, l], b[_Q + 3, l] = -side * eta, side * xi

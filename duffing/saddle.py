@@ -50,27 +50,10 @@ def saddle_orbit(osc):
     return SaddleOrbit(frame.states[:, 0].reshape(2, *osc.shape) * scale, multipliers, *directions)
 
 
-def saddle_friction_time(osc):
-    """Friction time S = integral of p |v|^(p-1) dt that the saddle orbit spends in one forcing period, (*family).
-
-    The orbit's multipliers have the product exp(-alpha S). S is infinite where the orbit sticks: its velocity then
-    passes through zero on the slow branch alpha sign(v) |v|^p = F, together with the force F; a tangent direction is
-    annihilated and the stroboscopic map not invertible there (p <= 1/2). Raises ValueError unless delta < 0 < gamma;
-    NoSaddleOrbitError where Newton's method does not find the orbit.
-    """
-    unit = unit_members(osc)
-    orbit, found = central_orbit(unit)
-    _refuse(osc, ~found, _NOT_FOUND)
-    total = np.where(_at_rest(unit), np.inf, 2 * orbit.friction_time.sum(axis=0))
-    # S scales as v^(p-1) t.
-    time, speed = 1 / np.sqrt(-osc.delta), units(osc)[1]
-    return (total.reshape(osc.shape) * time * speed ** (osc.p - 1))[()]
-
-
 def saddle_frame(osc):
     """The Frame of the family's saddle orbits; errors as for `saddle_orbit`."""
     unit = unit_members(osc)
-    _refuse(osc, _at_rest(unit), "for p < 1 it is at rest at mu = 0, and the damping has no linearisation at v = 0")
+    _refuse(osc, at_rest(unit), "for p < 1 it is at rest at mu = 0, and the damping has no linearisation at v = 0")
     (t, states, maps, friction_time), found = central_orbit(unit)
     _refuse(osc, ~found, _NOT_FOUND)
     sticks = ~np.isfinite(friction_time).all(axis=0)
@@ -103,9 +86,14 @@ def unit_members(osc):
 
 
 def units(osc):
-    """Units (3, *family) of length, velocity and forcing for which delta = -1, gamma = 1 (science of `dimensionless`)."""
+    """Units (3, *family) of length, velocity and forcing for which delta = -1, gamma = 1."""
     stiffness, cubic = (np.broadcast_to(value, osc.shape) for value in (-osc.delta, osc.gamma))
     return np.array([np.sqrt(stiffness / cubic), stiffness / np.sqrt(cubic), stiffness**1.5 / np.sqrt(cubic)])
+
+
+def at_rest(unit):
+    """Which members (N,) have their saddle orbit at rest where the damping has no linearisation."""
+    return (unit.mu == 0) & (unit.p < 1) & (unit.alpha > 0)
 
 
 def _directions(half, multipliers, maps, areas):
@@ -142,14 +130,15 @@ def _times(matrix, other):
 _NOT_FOUND = "Newton's method, with continuation from weaker forcing, does not find it"
 
 
-def _at_rest(unit):
-    return (unit.mu == 0) & (unit.p < 1) & (unit.alpha > 0)
-
-
 def _refuse(osc, members, reason):
     """Raise NoSaddleOrbitError, naming the first of the members (N,) marked."""
     marked = np.flatnonzero(members)
     if marked.size:
-        names = ("alpha", "p", "mu", "omega", "delta", "gamma")
-        member = ", ".join(f"{n} = {v:g}" for n, v in zip(names, osc.columns()[:, marked[0]], strict=True))
+        member = names(osc, marked[0])
         raise NoSaddleOrbitError(f"no hyperbolic saddle orbit for {member} ({marked.size} such members): {reason}")
+
+
+def names(osc, member):
+    """The parameters of one member of a family, in words."""
+    fields = ("alpha", "p", "mu", "omega", "delta", "gamma")
+    return ", ".join(f"{name} = {value:g}" for name, value in zip(fields, osc.columns()[:, member], strict=True))

@@ -49,8 +49,10 @@ def central_orbit(unit):
 
 
 def linear_response(unit, t):
-    """States (2, n, N) at the times t (n, N) of the orbit of x'' + c x' - x = mu cos(omega t), c the damping that takes
-    as much energy in a period as the power law does: c = alpha (omega A)^(p-1) (2/pi) B(p/2 + 1, 1/2), A its amplitude."""
+    """States (2, n, N) at the times t (n, N) of the orbit of x'' + c x' - x = mu cos(omega t), A its amplitude.
+
+    c = alpha (omega A)^(p-1) (2/pi) B(p/2 + 1, 1/2) takes as much energy in a period as the power law does.
+    """
     stiffness = 1 + unit.omega**2
     share = unit.alpha * 2 / np.pi * scipy.special.beta(unit.p / 2 + 1, 0.5)
     low, high = np.zeros_like(unit.mu), np.abs(unit.mu) / stiffness
@@ -76,7 +78,7 @@ def _continuation(columns, t):
 
 def _newton(unit, t, states):
     """Refined states (2, m, N) and whether each member converged; steps are halved until the residual falls."""
-    segments, size = states.shape[1:]
+    size = unit.mu.size
     gap, maps, _ = _shoot(unit, t, states)
     factor, found = np.ones(size), np.zeros(size, dtype=bool)
     for _ in range(_STEPS):

@@ -12,7 +12,9 @@ LEAST_NORMAL = 2.0**-1022
 
 
 def _units_in_the_last_place(got, exact):
-    return max(abs(mpmath.mpf(float(g)) - e) / mpmath.mpf(float(np.spacing(float(e)))) for g, e in zip(got, exact))
+    return max(
+        abs(mpmath.mpf(float(g)) - e) / mpmath.mpf(float(np.spacing(float(e)))) for g, e in zip(got, exact, strict=True)
+    )
 
 
 def _exact(v, q):

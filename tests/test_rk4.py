@@ -105,6 +105,15 @@ def test_bits_depend_neither_on_blocks_nor_on_threads_nor_on_order(p):
         assert np.array_equal(part.growth, everything.growth[..., chosen])
 
 
+def test_round_off_in_the_times_adds_no_step(monkeypatch):
+    seen = []
+    kernel = rk4._advance
+    monkeypatch.setattr(rk4, "_advance", lambda *a: (seen.append(a[5]), kernel(*a)))
+    osc = Duffing(omega=1.3)
+    rk4.integrate(osc, START, osc.period / 10 * np.arange(1201))
+    assert np.array_equal(np.unique(seen[0]), [50])
+
+
 def test_members_of_different_frequency_at_their_own_periods_share_the_phases_of_a_single_one():
     osc = Duffing(p=0.5, mu=0.25, omega=np.array([0.6, 1.0, 1.7]))
     t = np.arange(41)[:, None] * osc.period
@@ -112,6 +121,17 @@ def test_members_of_different_frequency_at_their_own_periods_share_the_phases_of
     for i, omega in enumerate(osc.omega):
         alone = Duffing(p=0.5, mu=0.25, omega=omega)
         assert np.array_equal(rk4.integrate(alone, START, _periods(alone, 40)).states[..., 0], orbit.states[..., i])
+
+
+def test_members_with_times_of_their_own_move_as_they_do_alone():
+    # Period 1 and binary fractions: the spacings are equal in every bit, the phases at the start are not.
+    osc = Duffing(p=0.5, mu=3.0, omega=2 * np.pi, alpha=np.full(3, 0.1))
+    t = np.array([0.0, 0.25, 0.625]) + 0.5 * np.arange(5)[:, None]
+    together = rk4.integrate(osc, START, t).states
+    for i in range(3):
+        alone = rk4.integrate(Duffing(p=0.5, mu=3.0, omega=2 * np.pi), START, t[:, i]).states
+        assert np.array_equal(alone[..., 0], together[..., i])
+    assert np.abs(together[:, -1, 0] - together[:, -1, 1]).max() > 0.1
 
 
 def test_every_period_uses_the_same_phases_so_that_a_late_start_changes_nothing():
@@ -226,7 +246,7 @@ def test_companion_that_merges_gives_a_finite_upper_bound_and_starts_anew():
 
 def test_diverging_solutions_are_named():
     osc = Duffing(delta=1.0, gamma=-1.0, mu=np.array([0.0, 0.01]))
-    with pytest.raises(DivergedError, match="1 of 2 .* mu = 0.01"):
+    with pytest.raises(DivergedError, match=r"1 of 2 .* mu = 0\.01"):
         rk4.integrate(osc, np.array([[0.5, 3.0], [0.0, 0.0]]), [0.0, 50.0])
     with pytest.raises(DivergedError, match="gamma = -1"):
         rk4.two_trajectory_growth(osc, (3.0, 0.0), 5)

@@ -1,0 +1,108 @@
+"""The book's own figures, beyond the paper's: arrays in, a matplotlib Figure out. Nothing is computed here."""
+
+import numpy as np
+
+from .figures import BLACK, BLUE, GREEN, GREY, ORANGE, P_COLOUR, PURPLE, VERMILION, panel
+from .page_figure import PageFigure, styled
+
+METHODS = {  # the integrators' colours, markers and dashes in the work-precision figure
+    "Runge-Kutta 4, fixed step": (BLACK, "o", ":"),
+    "SciPy DOP853": (BLUE, "s", "--"),
+    "SciPy LSODA": (GREEN, "^", "-."),
+    "SciPy Radau": (PURPLE, "v", (0, (5, 1, 1, 1))),
+    "friction time": (VERMILION, "D", "-"),
+}
+
+
+@styled
+def scan_map(alpha, omega, criteria, chosen):
+    """Which (alpha, omega) agree with the text, one small map for each criterion: dict of boolean arrays (a, w)."""
+    fig = PageFigure(figsize=(6.8, 5.2))
+    panels = fig.subplots(2, -(-len(criteria) // 2), sharex=True, sharey=True)
+    for axes, (name, agrees) in zip(panels.flat, criteria.items(), strict=False):
+        i, j = np.nonzero(agrees)
+        axes.plot(omega[j], alpha[i], "s", color=BLUE, markersize=4)
+        axes.plot(*chosen[::-1], "o", color=VERMILION, fillstyle="none", markersize=12, markeredgewidth=1.8)
+        axes.set_title(f"{name}: {agrees.sum()} of {agrees.size}", fontsize=10)
+        axes.set(xlim=(omega[0] - 0.05, omega[-1] + 0.05), ylim=(alpha[0] - 0.02, alpha[-1] + 0.02))
+    for axes in panels.flat[len(criteria) :]:
+        axes.set_axis_off()
+    fig.supxlabel(r"forcing frequency $\omega$ (dimensionless)", fontsize=11)
+    fig.supylabel(r"damping coefficient $\alpha$ (dimensionless)", fontsize=11)
+    return fig
+
+
+@styled
+def headline(p, mu_c, p_tangency, tangency, p_onset, onset):
+    """Fig. 3b with the computed homoclinic tangencies on the line."""
+    fig, axes = panel("damping exponent $p$", r"forcing amplitude $\mu$ (dimensionless)")
+    axes.plot(p, mu_c, color=BLACK, label=r"critical amplitude $\mu_c$, Eq. 13")
+    axes.plot(
+        p_tangency, tangency, "x", color=BLUE, markersize=7, markeredgewidth=2, label="homoclinic tangency, computed"
+    )
+    found = np.isfinite(onset)
+    axes.plot(p_onset[found], onset[found], "o", color=VERMILION, fillstyle="none", label=r"onset of $\lambda_1 > 0.1$")
+    axes.set(xlim=(0, p[-1]), ylim=(0, None))
+    axes.legend()
+    return fig
+
+
+@styled
+def work_precision(tables):
+    """Error against force evaluations, one panel for each p: dict p -> dict method -> (evaluations, error)."""
+    fig = PageFigure(figsize=(6.8, 3.9))
+    panels = fig.subplots(1, len(tables), sharey=True)
+    for axes, (p, table) in zip(panels, tables.items(), strict=True):
+        for method, (evaluations, error) in table.items():
+            colour, marker, dash = METHODS[method]
+            axes.loglog(evaluations, error, color=colour, marker=marker, linestyle=dash, markersize=4, label=method)
+        axes.set(title=f"$p = {p:g}$", xlabel="force evaluations")
+    panels[0].set_ylabel("error of $(x, v)$ (dimensionless)")
+    fig.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return fig
+
+
+@styled
+def resolved_exponents(mu, coarse, mu_exact, exact, threshold):
+    """lambda_1 against mu: the paper's step (thin) and friction time (thick)."""
+    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)", figsize=(6.8, 4.2))
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0)
+    axes.plot(mu, coarse, color=GREY, linewidth=0.8, label="the paper's algorithm")
+    axes.plot(mu_exact, exact, color=P_COLOUR[0.1], linewidth=1.6, label="friction time")
+    axes.set(xlim=(mu_exact[0], mu_exact[-1]), ylim=(-0.75, 0.25))
+    axes.legend(loc="lower right")
+    return fig
+
+
+@styled
+def many_starts(mu, exponents, mu_paper, paper_exponents):
+    """lambda_1 of many starts at each mu as dots: exponents (starts, len(mu)); the paper's start and step as a line."""
+    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)", figsize=(6.8, 4.2))
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.plot(mu_paper, paper_exponents, color=GREY, linewidth=1.2, label="the paper's start and algorithm")
+    dots = np.broadcast_to(mu, exponents.shape)
+    axes.plot(
+        dots.ravel(),
+        exponents.ravel(),
+        ".",
+        color=P_COLOUR[0.1],
+        alpha=0.45,
+        markersize=5,
+        label="friction time, each start",
+    )
+    axes.set_xlim(mu[0], mu[-1])
+    axes.legend(loc="lower left")
+    return fig
+
+
+@styled
+def dry_limit(p, exponents, mu):
+    """lambda_1 against p (logarithmic) for several forcings: exponents (len(p), len(mu))."""
+    fig, axes = panel("damping exponent $p$", r"$\lambda_1$ (per unit time)")
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    looks = zip((BLUE, GREEN, VERMILION, ORANGE), ("o", "s", "D", "^"), strict=True)
+    for value, column, (colour, marker) in zip(mu, exponents.T, looks, strict=False):
+        axes.semilogx(p, column, marker=marker, color=colour, label=rf"$\mu = {value:g}$")
+    axes.legend()
+    return fig

@@ -1,0 +1,58 @@
+"""The paper's data: its parameters, the recovered ones among them."""
+
+import numpy as np
+import pytest
+
+from duffing import lyapunov_spectrum, paper, reproduction
+
+
+def test_the_grid_of_mu_holds_the_papers_values_exactly():
+    mu = reproduction.mu_grid()
+    assert mu.size == 501
+    assert {0.0, 0.25, 0.267, 0.27, 0.5} <= set(mu)
+
+
+def test_exponent_curve_is_the_papers_algorithm_member_by_member():
+    mu, exponent = reproduction.exponent_curve(0.5, step=0.1, last=0.2)
+    for value, found in zip(mu, exponent, strict=True):
+        osc = paper.Duffing(alpha=0.1, p=0.5, mu=value, omega=1.0)
+        alone = lyapunov_spectrum(osc, (0.45, 0.1), 239, 0, k=1, method="rk4", steps_per_period=500)
+        assert found == alone.exponents[0]
+
+
+def test_onset_is_the_first_mu_above_the_threshold():
+    (onset,) = reproduction.onsets((0.1,))
+    mu, exponent = reproduction.exponent_curve(0.1)
+    assert exponent[np.searchsorted(mu, onset)] > paper.THRESHOLD
+    assert not np.any(exponent[(mu >= 0.1) & (mu < onset)] > paper.THRESHOLD)
+    assert np.isnan(reproduction.onsets((0.1,), step=0.05, last=0.2)[0])
+
+
+def test_motion_keeps_points_on_its_path_and_parts_join():
+    motion = reproduction.motion(0.2, end=70.0)
+    period = 2 * np.pi
+    for k, point in enumerate(motion.points.T[:3], start=1):
+        near = np.argmin(np.abs(motion.t - k * period))
+        np.testing.assert_allclose(motion.path[:, near], point, atol=1e-9)
+    early, late = motion.part(0.0, 30.0, period), motion.part(30.0, 70.0, period)
+    assert early[1].shape[1] + late[1].shape[1] == motion.points.shape[1] == 11
+    assert early[0].shape[1] + late[0].shape[1] == motion.t.size
+
+
+def test_the_recovered_pair_meets_every_criterion_and_few_others_do():
+    scan = reproduction.parameter_scan()
+    agrees = reproduction.survivors(scan)["all five"]
+    i, j = np.argwhere((scan.alpha[:, None] == 0.1) & (scan.omega == 1.0))[0]
+    assert agrees[i, j]
+    assert agrees.sum() <= 6
+
+
+def test_only_the_recovered_pair_has_its_onset_at_the_papers_place():
+    scan = reproduction.parameter_scan()
+    left = np.argwhere(reproduction.survivors(scan)["all five"])
+    onset = {}
+    for i, j in left:
+        osc = paper.Duffing(alpha=float(scan.alpha[i]), p=0.1, omega=float(scan.omega[j]))
+        onset[scan.alpha[i], scan.omega[j]] = reproduction.onsets((0.1,), osc=osc)[0]
+    inside = [pair for pair, value in onset.items() if abs(value - 0.27) < 0.005]
+    assert inside == [(pytest.approx(0.1), pytest.approx(1.0))]
