@@ -111,7 +111,7 @@ def fig4(mu, exponent, p, threshold):
     axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0, label=rf"threshold $\lambda_1 = {threshold:g}$")
     axes.plot(mu, exponent, color=P_COLOUR.get(p, GREY), linewidth=1.1, label=f"$p = {p:g}$")
     axes.set_xlim(mu[0], mu[-1])
-    axes.legend(loc="lower left")
+    fig.legend(loc="outside upper right", ncols=2)
     return fig
 
 

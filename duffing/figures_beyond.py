@@ -92,7 +92,7 @@ def many_starts(mu, exponents, mu_paper, paper_exponents):
         label="friction time, each start",
     )
     axes.set_xlim(mu[0], mu[-1])
-    axes.legend(loc="lower left")
+    fig.legend(loc="outside upper right", ncols=2)
     return fig
 
 

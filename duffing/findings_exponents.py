@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from . import paper, reproduction
+from . import paper, reproduction, small_p
 from .flow import integrate
 from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from .melnikov import critical_amplitude
@@ -34,19 +34,10 @@ def weak_forcing(steps=1):
 
 
 @cache
-def exact_exponents(mu, p=paper.P_SMALL, periods=200):
-    """lambda_1 in friction time from the paper's start after forty periods, for a tuple of mu: (exponents, errors)."""
-    spectrum = lyapunov_spectrum(replace(paper.OSCILLATOR, p=p, mu=np.array(mu)), paper.START, periods, 40, k=1)
-    return spectrum.exponents[0], spectrum.error[0]
-
-
-@cache
-def chaos_from_many_starts(starts=64):
-    """lambda_1 at p = 0.1, mu = 0.27 over the paper's time, in friction time, from many starts: (starts,)."""
-    x = np.linspace(-1.2, 1.2, starts)
-    state = np.stack([x, 0.3 * np.sin(7 * x)])  # spread over both wells, no two alike
-    osc = replace(paper.OSCILLATOR, mu=np.full(starts, paper.MU_CHAOTIC))
-    return lyapunov_spectrum(osc, state, paper.PERIODS - 40, 40, k=1).exponents[0]
+def exact_exponents(mu, p=paper.P_SMALL, periods=199):
+    """lambda_1 in friction time from the paper's start, after forty periods, for a tuple of mu: (len(mu),)."""
+    family = replace(paper.OSCILLATOR, p=p, mu=np.array(mu))
+    return lyapunov_spectrum(family, paper.START, periods, 40, k=1, **small_p.TOLERANCE).exponents[0]
 
 
 def _at(curve, mu):
@@ -62,14 +53,15 @@ def _span(values):
 def _necessary():
     _, ratio = onset_ratios()
     found = np.isfinite(ratio)
-    grid, exponent = reproduction.exponent_curve(paper.P_SMALL)
-    late = grid[(exponent > paper.THRESHOLD) & (grid >= 0.1)]
-    longer = exact_exponents(tuple(late), periods=400)[0]
-    fade = int(np.sum(longer < 0))
+    grid, exponent = reproduction.exponent_curve(paper.P_LINEAR)
+    above = grid[exponent > paper.THRESHOLD]
+    longer = lyapunov_spectrum(
+        replace(paper.OSCILLATOR, p=paper.P_LINEAR, mu=above), paper.START, 300, 1000, k=1, method="rk4"
+    )
+    fade = int(np.sum(longer.exponents[0] < 0))
     text = (
-        f"No chaos was met below μ_c at any of {found.sum()} exponents, and much regular motion above it. But a positive average over "
-        f"a finite time is not sufficient either: {fade} of {late.size} values of μ above the threshold at p = 0.1 turn negative "
-        "with the exact algorithm and a longer time."
+        f"No chaos was met below $μ_c$ at any of {found.sum()} exponents, and much regular motion above it. But a positive average over "
+        f"a finite time is not sufficient either: at p = 1 {fade} of the {above.size} values of μ above the threshold are regular after a thousand periods."
     )
     return decide(np.all(ratio[found] > 1), text, limited=fade > 0)
 
@@ -78,8 +70,8 @@ def _necessary():
 def _can_transit():
     onset, ratio = onset_ratios()
     text = (
-        "Crossing manifolds, transients and intertwined basins begin at μ_c; an attractor with λ₁ > 0.1 was met only from "
-        f"{np.nanmin(ratio):.2f} μ_c (p = {P_ONSET[int(np.nanargmin(ratio))]:g}) to {np.nanmax(ratio):.2f} μ_c upwards."
+        "Crossing manifolds, transients and intertwined basins begin at $μ_c$; an attractor with λ₁ > 0.1 was met only from "
+        f"{np.nanmin(ratio):.2f} $μ_c$ (p = {P_ONSET[int(np.nanargmin(ratio))]:g}) to {np.nanmax(ratio):.2f} $μ_c$ upwards."
     )
     return decide(np.any(np.isfinite(onset)), text, limited=True)
 
@@ -88,7 +80,7 @@ def _can_transit():
 def _above_line():
     _, ratio = onset_ratios()
     found = np.isfinite(ratio)
-    text = f"All {found.sum()} onsets found (of {len(P_ONSET)} exponents, μ in steps of 0.001) lie above μ_c."
+    text = f"All {found.sum()} onsets found (of {len(P_ONSET)} exponents, μ in steps of 0.001) lie above $μ_c$."
     return decide(np.all(ratio[found] > 1), text)
 
 
@@ -97,7 +89,7 @@ def _agreement():
     _, ratio = onset_ratios()
     at_one = ratio[P_ONSET.index(1.0)]
     text = (
-        f"The onsets lie {np.nanmin(ratio):.2f} to {np.nanmax(ratio):.2f} times above μ_c ({at_one:.2f} at p = 1). What agrees with "
+        f"The onsets lie {np.nanmin(ratio):.2f} to {np.nanmax(ratio):.2f} times above $μ_c$ ({at_one:.2f} at p = 1). What agrees with "
         "Eq. 13 is the tangency of the manifolds, which it predicts (chapter “The homoclinic tangency”)."
     )
     return decide(np.nanmax(ratio) < 1.2, text)
@@ -119,7 +111,7 @@ def _sign_change():
 
 @finds(FINDINGS, "false-positive")
 def _false_positive():
-    coarse, exact = weak_forcing(), exact_exponents(WEAK)[0]
+    coarse, exact = weak_forcing(), exact_exponents(WEAK)
     text = (
         f"Two trajectories give {_span(coarse)} for μ from {WEAK[0]} to {WEAK[-1]}, {int(np.sum(coarse > 0))} of {coarse.size} values "
         f"positive, depending on their distance; the true exponents are {_span(exact)}, all negative. An artefact, as the paper suspects."
@@ -140,12 +132,13 @@ def _small_amplitude():
 @finds(FINDINGS, "smaller-steps")
 def _smaller_steps():
     coarse, fine = weak_forcing(), weak_forcing(FINE)
-    counts = [int(np.sum(values > 0)) for values in (coarse, fine)]
-    text = (
-        f"Positive values among {coarse.size} (two distances, six μ): {counts[0]} with the paper's step, {counts[1]} with a step {FINE} "
-        f"times smaller; the range goes from {_span(coarse)} to {_span(fine)}."
+    cured = [bool(np.any(before > 0) and np.all(after <= 0)) for before, after in zip(coarse, fine, strict=True)]
+    found = "; ".join(
+        f"distance {d0:g}: {_span(before)} becomes {_span(after)}"
+        for d0, before, after in zip(DISTANCES, coarse, fine, strict=True)
     )
-    return decide(counts[1] < counts[0] and np.max(fine) < np.max(coarse), text, limited=counts[1] > 0)
+    text = f"It depends on the distance of the two trajectories, which the paper does not give. With steps {FINE} times smaller, {found}."
+    return decide(any(cured), text, limited=not all(cured))
 
 
 @finds(FINDINGS, "robust-onset")
@@ -164,28 +157,25 @@ def _robust_onset():
 def _threshold():
     grid, exponent = reproduction.exponent_curve(paper.P_SMALL)
     inside = (grid >= 0.2) & (grid <= 0.35)
-    exact = exact_exponents(tuple(grid[inside]), periods=400)[0]
-    same = (exponent[inside] > paper.THRESHOLD) == (exact > 0)
+    exact = exact_exponents(tuple(grid[inside]))
+    same = (exponent[inside] > paper.THRESHOLD) == (exact > 0.05)
     text = (
-        f"For {int(same.sum())} of {same.size} values of μ from 0.20 to 0.35 at p = 0.1 “λ₁ > 0.1 by the paper's algorithm” and “λ₁ > 0 by "
-        "the exact one over a longer time” agree; transients make the difference."
+        f"At p = 0.1, for {int(same.sum())} of {same.size} values of μ from 0.20 to 0.35, “λ₁ > 0.1 by the paper's algorithm” and “clearly positive "
+        "by the exact one” agree. Near μ = 0 single false positives exceed even the threshold."
     )
-    return decide(same.mean() > 0.9, text, limited=not same.all())
+    return decide(same.mean() > 0.9, text, limited=True)
 
 
 @finds(FINDINGS, "lambda-027")
 def _lambda_chaotic():
     ours = _at(reproduction.exponent_curve(paper.P_SMALL), paper.MU_CHAOTIC)
-    exact = chaos_from_many_starts()
-    chaotic = exact[exact > 0]
-    mean, spread = chaotic.mean(), chaotic.std(ddof=1)
-    away = abs(paper.LAMBDA_CHAOTIC - mean) / spread
+    chaos = small_p.chaos()
+    away = abs(paper.LAMBDA_CHAOTIC - chaos.mean) / chaos.spread
     text = (
-        f"{ours:.3f} by the paper's algorithm as we run it. In friction time, from {exact.size} starts over the paper's time: "
-        f"{mean:.3f} ± {spread:.3f} (one standard deviation of a single run); the paper's value is {away:.1f} of these away."
+        f"{ours:.3f} by the paper's algorithm as we run it. In friction time, from {chaos.runs} chaotic runs over the paper's time: "
+        f"{chaos.mean:.3f} on average, and a single run scatters by {chaos.spread:.3f}; the paper's value is {away:.1f} of these away."
     )
-    holds = abs(ours - paper.LAMBDA_CHAOTIC) < 3 * spread
-    return decide(holds, text, limited=away > 2)
+    return decide(away < 3, text, limited=True)
 
 
 @finds(FINDINGS, "lambda-025")
@@ -194,7 +184,7 @@ def _lambda_regular():
     settled = lyapunov_spectrum(
         replace(paper.OSCILLATOR, mu=paper.MU_REGULAR), paper.START, paper.PERIODS - 40, 40, k=1, method="rk4"
     ).exponents[0]
-    exact = exact_exponents((paper.MU_REGULAR,))[0][0]
+    exact = exact_exponents((paper.MU_REGULAR,))[0]
     text = (
         f"Negative, yes: {ours:.3f} with the transient averaged in, {settled:.3f} without it, by the paper's algorithm; "
         f"{exact:.4f} exactly. The paper's step misses much of the contraction at v = 0."
@@ -211,14 +201,13 @@ def _higher():
 @finds(FINDINGS, "larger-lambda")
 def _larger():
     curves = [reproduction.exponent_curve(p) for p in (paper.P_SMALL, paper.P_LINEAR)]
-    beyond = [exponent[mu >= 0.1] for mu, exponent in curves]  # above the false positives near mu = 0
-    top = [float(exponent.max()) for exponent in beyond]
-    width = [int(np.sum(exponent > paper.THRESHOLD)) for exponent in beyond]
+    chaotic = [exponent[(mu >= 0.1) & (exponent > paper.THRESHOLD)] for mu, exponent in curves]  # no false positives
+    top = [float(values.max()) for values in chaotic]
     text = (
-        f"Largest λ₁ over μ by the paper's algorithm: {top[0]:.3f} at p = 0.1, {top[1]:.3f} at p = 1; chaotic values of μ (from 0.1 to 0.5 in steps of 0.001): "
-        f"{width[0]} and {width[1]}."
+        f"By the paper's algorithm the largest λ₁ over μ is {top[0]:.3f} at p = 0.1 and {top[1]:.3f} at p = 1: alike within the scatter of single "
+        f"runs. What differs is how many μ are chaotic and how long chaos lasts ({chaotic[0].size} and {chaotic[1].size} values of μ; the row on sufficiency)."
     )
-    return decide(top[0] > top[1], text)
+    return decide(top[0] - top[1] > 0.03, text)
 
 
 @finds(FINDINGS, "contradiction")
@@ -237,7 +226,7 @@ def _contradiction():
 @finds(FINDINGS, "algorithm")
 def _algorithm():
     mu = (0.15, 0.20, paper.MU_REGULAR)
-    exact = exact_exponents(mu)[0]
+    exact = exact_exponents(mu)
     spectrum = lyapunov_spectrum(replace(paper.OSCILLATOR, mu=np.array(mu)), paper.START, 199, 40, k=1, method="rk4")
     coarse = spectrum.exponents[0]
     pairs = "; ".join(f"μ = {m:g}: {c:.3f} → {e:.4f}" for m, c, e in zip(mu, coarse, exact, strict=True))

@@ -35,7 +35,7 @@ def _chaotic_motion():
         f"No two of the {points.shape[1]} late stroboscopic points are nearer than {gap:.1e} (at μ = 0.25 they agree to {periodic:.0e}), "
         f"both wells are visited{'' if wells else ' (no)'}, and λ₁ > 0 is confirmed in friction time."
     )
-    return decide(gap > 1e3 * periodic and wells and exact_exponents((paper.MU_CHAOTIC,))[0][0] > 0, text)
+    return decide(gap > 1e3 * periodic and wells and exact_exponents((paper.MU_CHAOTIC,))[0] > 0, text)
 
 
 def _last_jump(motion):
@@ -82,8 +82,8 @@ def _transients():
     jumps = np.diff(np.sign(x), axis=0) != 0
     late = jumps[20 * 10 :].any(axis=0)  # still jumping after ten periods, though regular in the end
     text = (
-        f"From the paper's start {late[mu > mu_c].mean():.0%} of the forcings between μ_c and the onset still jump after ten periods "
-        f"and settle later; below μ_c {late[mu < mu_c].mean():.0%} do."
+        f"From the paper's start {late[mu > mu_c].mean():.0%} of the forcings between $μ_c$ and the onset still jump after ten periods "
+        f"and settle later; below $μ_c$ {late[mu < mu_c].mean():.0%} do."
     )
     return decide(late[mu > mu_c].any() and not late[mu < mu_c].any(), text)
 

