@@ -1,4 +1,4 @@
-# make book | test | lab | bench | lint | clean, and for the maintainer: make environment | baselines
+# make book | test | lab | bench | window | lint | clean, and for the maintainer: make environment | baselines | headline
 # Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
 PYTHON ?= python3
 BIN := .venv/bin
@@ -12,7 +12,7 @@ LAB_DEFAULTS := { \
     "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}, \
     "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false}}
 
-.PHONY: book test lab bench lint clean environment baselines
+.PHONY: book test lab bench window lint clean environment baselines headline
 
 book: $(READY)
 	@$(BIN)/python extensions/build.py $(JOBS)
@@ -25,6 +25,14 @@ lab: $(READY)
 
 bench: $(READY)
 	$(BIN)/python benchmarks/sweep.py
+
+# The window of chaos from 200 starts instead of the book's 32: some minutes.
+window: $(READY)
+	$(BIN)/python scripts/window.py
+
+# The picture in the README.
+headline: $(READY)
+	$(BIN)/python scripts/headline.py
 
 lint: $(READY)
 	$(BIN)/ruff check .

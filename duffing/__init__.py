@@ -6,6 +6,8 @@ from .lyapunov import LyapunovSpectrum, lyapunov_spectrum, two_trajectory_expone
 from .melnikov import critical_amplitude, homoclinic_orbit, melnikov_function
 from .oscillator import Duffing
 from .poincare import poincare_section
+from .saddle import SaddleOrbit, saddle_orbit
+from .tangency import homoclinic_tangency, splitting
 
 __all__ = [
     "ConvergenceError",
@@ -14,11 +16,15 @@ __all__ = [
     "DuffingError",
     "LyapunovSpectrum",
     "NoSaddleOrbitError",
+    "SaddleOrbit",
     "critical_amplitude",
     "homoclinic_orbit",
+    "homoclinic_tangency",
     "lyapunov_spectrum",
     "melnikov_function",
     "poincare_section",
+    "saddle_orbit",
+    "splitting",
     "trajectory",
     "two_trajectory_exponent",
 ]

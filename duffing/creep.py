@@ -78,7 +78,7 @@ def creep(q, y, Y0, h, tangents, rtol, atol, new):
         c = _POINTS[i] * h
         Y[i] = Y0 + (force(q, x[0] + c * v[0], y[T] + c) - F[0]) / q[ALPHA]
     count, converged = 1 + STAGES, False
-    for _ in range(10):
+    for _ in range(30):
         _stages(q, y[T], h, r, Y, v, phi, F, x, spring)
         count += STAGES
         largest = 0.0
@@ -109,7 +109,8 @@ def creep(q, y, Y0, h, tangents, rtol, atol, new):
     new[X], new[T] = x[STAGES], y[T] + h
     new[S] = y[S] + _friction_time(q, h, Y)
     passages = _passages(Y)
-    if passages > 0 and (passages != _passages(F) or abs(F[0] - q[ALPHA] * Y0) > SLOW * abs(F[0])):
+    slow = SLOW if q[P] < 0.5 else 1.0  # at p = 1/2 the passage is never nearer to the slow branch than its start
+    if passages > 0 and (passages != _passages(F) or abs(F[0] - q[ALPHA] * Y0) > slow * abs(F[0])):
         passages = -1
     for vector in range(tangents):
         xi, eta = XI1 + 2 * vector, ETA1 + 2 * vector
@@ -147,14 +148,15 @@ def _stages(q, t, h, r, Y, v, phi, F, x, spring):
 @compiled
 def _friction_time(q, h, Y):
     """Integral of p |Y|^(1-1/p) over the step; infinite for p <= 1/2 if Y vanishes in it."""
-    total, steep = 0.0, q[P] <= 0.5
-    if steep and (_passages(Y) > 0 or np.min(np.abs(Y)) == 0.0):
+    total, vanishes = 0.0, _passages(Y) > 0 or np.min(np.abs(Y)) == 0.0
+    if vanishes and q[P] <= 0.5:
         return math.inf
     for g in range(_GAUSS):
         value = 0.0
         for i in range(STAGES + 1):
-            value += _FINE[g, i] * (math.log(abs(Y[i])) if steep else Y[i])
-        total += h * _GW[g] * q[P] * (math.exp((1 - 1 / q[P]) * value) if steep else abs(value) ** (1 - 1 / q[P]))
+            value += _FINE[g, i] * (Y[i] if vanishes else math.log(abs(Y[i])))
+        size = abs(value) if vanishes else math.exp(value)
+        total += h * _GW[g] * q[P] * size ** (1 - 1 / q[P])
     return total
 
 

@@ -9,12 +9,10 @@ import math
 import numpy as np
 from scipy.integrate import DOP853
 
-from .friction_time import M, T, W, X, compiled, rate
+from .friction_time import ETA1, ETA2, XI1, XI2, M, S, T, W, X, compiled, rate
 
 STAGES = 13  # twelve, and the rate at the new point, which is the first stage of the next step
-_SIZE = 8
-_A = np.ascontiguousarray(DOP853.A)
-_B = np.ascontiguousarray(DOP853.B)
+_TABLE = np.vstack([DOP853.A, DOP853.B])  # the last row leads to the new point
 _E3, _E5 = np.ascontiguousarray(DOP853.E3), np.ascontiguousarray(DOP853.E5)
 # A step's error in w alone displaces the point along its own orbit where time hardly runs; friction time and
 # tangents feel it, the state does not, so it counts less.
@@ -25,26 +23,33 @@ _ALONG = 0.01
 def advance(q, y, h, tangents, K, new):
     """new = y after a step h in sigma. K (13, 8) holds the rate at y in K[0]; its other rows are overwritten."""
     for stage in range(1, 12):
-        for d in range(_SIZE):
-            new[d] = 0.0
+        _combine(y, h, stage, tangents, K, new)
+        rate(q, new, tangents, K, stage)
+    _combine(y, h, 12, tangents, K, new)
+    rate(q, new, tangents, K, 12)
+
+
+@compiled
+def _combine(y, h, stage, tangents, K, new):
+    """new = y + h (the stage's row of the table) K. The sums are spelled out so that they stay in registers."""
+    x, w, t, s = 0.0, 0.0, 0.0, 0.0
+    for j in range(stage):
+        a = _TABLE[stage, j]
+        x += a * K[j, X]
+        w += a * K[j, W]
+        t += a * K[j, T]
+        s += a * K[j, S]
+    new[X], new[W], new[T], new[S] = y[X] + h * x, y[W] + h * w, y[T] + h * t, y[S] + h * s
+    if tangents > 0:
+        x, w, t, s = 0.0, 0.0, 0.0, 0.0
         for j in range(stage):
-            a = h * _A[stage, j]
-            if a != 0.0:
-                for d in range(_SIZE):
-                    new[d] += a * K[j, d]
-        for d in range(_SIZE):
-            new[d] += y[d]
-        rate(q, new, tangents, K[stage])
-    for d in range(_SIZE):
-        new[d] = 0.0
-    for j in range(12):
-        b = h * _B[j]
-        if b != 0.0:
-            for d in range(_SIZE):
-                new[d] += b * K[j, d]
-    for d in range(_SIZE):
-        new[d] += y[d]
-    rate(q, new, tangents, K[12])
+            a = _TABLE[stage, j]
+            x += a * K[j, XI1]
+            w += a * K[j, ETA1]
+            t += a * K[j, XI2]
+            s += a * K[j, ETA2]
+        new[XI1], new[ETA1] = y[XI1] + h * x, y[ETA1] + h * w
+        new[XI2], new[ETA2] = y[XI2] + h * t, y[ETA2] + h * s
 
 
 @compiled
@@ -96,7 +101,7 @@ def land(q, y, h, tangents, component, target, K, new):
         if abs(miss) <= 4e-16 * max(1.0, abs(target)) or abs(far - near) <= 1e-14 * abs(h):
             break
         if abs(correction) <= 1e-9 * abs(h):
-            for d in range(_SIZE):
+            for d in range(y.size):
                 new[d] += correction * K[12, d]
             length += correction
             break
@@ -105,7 +110,7 @@ def land(q, y, h, tangents, component, target, K, new):
             trial = 0.5 * (near + far)
         length = trial
     new[component] = target
-    rate(q, new, tangents, K[12])
+    rate(q, new, tangents, K, 12)
     return evaluations
 
 

@@ -11,7 +11,7 @@ from .page_figure import PageFigure, styled
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE, GREY = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#767676",
 )  # fmt: skip
-P_COLOUR = {0.1: VERMILION, 0.3: PURPLE, 0.5: ORANGE, 0.75: SKY, 1.0: BLUE, 1.5: SKY, 2.0: GREEN, 3.0: BLACK}
+P_COLOUR = {0.1: VERMILION, 0.3: PURPLE, 0.5: ORANGE, 0.75: "#882255", 1.0: BLUE, 1.5: SKY, 2.0: GREEN, 3.0: BLACK}
 P_DASH = {
     0.1: "-",
     0.3: (0, (5, 1, 1, 1)),

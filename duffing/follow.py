@@ -68,7 +68,7 @@ def follow(q, y, component, target, limit, carry, tangents, control, frame, tall
 def _move_on(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new):
     """Explicit steps until the target or a creep."""
     h, gain, rejected = carry[MOVE], 0.0, False
-    rate(q, y, tangents, K[0])
+    rate(q, y, tangents, K, 0)
     tally[EVALUATIONS] += 1
     while tally[STEPS] < control[MAX_STEPS]:
         tally[STEPS] += 1
@@ -94,8 +94,8 @@ def _move_on(q, y, component, target, limit, carry, tangents, control, frame, ta
                 carry[MOVE] = math.copysign(max(abs(h), abs(carry[MOVE])) if q[M] == 1.0 else abs(h), h)
                 return DONE
             new[:], K[12] = behind, its_rate  # a turning point that was not asked for: on behind it
-        y[:] = new
-        K[0] = K[12]
+        for d in range(y.size):
+            y[d], K[0, d] = new[d], K[12, d]
         relaxations = q[ALPHA] * K[0, S] * abs(h)
         fastest = math.sqrt(abs(stiffness(q, y[X]))) * K[0, T] + q[ALPHA] * K[0, S]
         h *= min(1.0 if rejected else 6.0, 0.9 * e**-0.125) if e > 0 else 6.0
@@ -107,7 +107,7 @@ def _move_on(q, y, component, target, limit, carry, tangents, control, frame, ta
             return NO_CROSSING
         if _collapses(y, tangents):
             orthonormalise(y, tangents, frame, _log_area(y, tangents))
-            rate(q, y, tangents, K[0])
+            rate(q, y, tangents, K, 0)
         if q[P] >= 1.0:
             continue
         resting = at_rest(q, y[X], q[M] * K[0, W], q[M] * K[0, S] * y[W] / q[N])  # phi = 0 there

@@ -96,6 +96,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
     -------
     Orbit : with friction_time (n - 1, N), annihilations (n - 1, N), evaluations (N,) of the force. Where a creep
         through zero force annihilates a tangent direction (p <= 1/2), friction_time is infinite, growth[1] = -inf.
+        Backward, friction_time is negative.
 
     Raises
     ------
@@ -269,8 +270,11 @@ def _times(t, size):
 
 
 def _monotone(t):
-    backward = t.ndim == 1 and t.size > 1 and t.dtype.kind in "iuf" and t[1] < t[0]
-    return -checks.times(-t) if backward else checks.times(t)
+    if t.ndim == 1 and t.size > 1 and t.dtype.kind in "iuf" and np.all(np.isfinite(t)):
+        if not (np.all(np.diff(t) > 0) or np.all(np.diff(t) < 0)):
+            raise ValueError(f"t = {t}: must be strictly increasing or strictly decreasing")
+        return t.astype(float)
+    return checks.times(t)
 
 
 def _control(rtol, atol, max_steps, switch=0.6):

@@ -79,19 +79,19 @@ def variable(q, v):
 
 
 @compiled
-def rate(q, y, tangents, out):
-    """out = dy/dsigma, with as many tangent vectors as asked."""
+def rate(q, y, tangents, K, row):
+    """K[row] = dy/dsigma, with as many tangent vectors as asked."""
     phi, power = powers(q, y[W])
     pace = 1.0 if q[M] == 1.0 else 1 / (q[M] + phi)
     dt = phi * pace
     friction = q[N] * power * pace
-    out[X] = dt * phi * y[W] / q[M]
-    out[W] = (force(q, y[X], y[T]) - q[ALPHA] * power * y[W]) * pace
-    out[T] = dt
-    out[S] = friction
+    K[row, X] = dt * phi * y[W] / q[M]
+    K[row, W] = (force(q, y[X], y[T]) - q[ALPHA] * power * y[W]) * pace
+    K[row, T] = dt
+    K[row, S] = friction
     if tangents > 0:
         spring, damper = dt * stiffness(q, y[X]), q[ALPHA] * friction
-        out[XI1] = dt * y[ETA1]
-        out[ETA1] = spring * y[XI1] - damper * y[ETA1]
-        out[XI2] = dt * y[ETA2]
-        out[ETA2] = spring * y[XI2] - damper * y[ETA2]
+        K[row, XI1] = dt * y[ETA1]
+        K[row, ETA1] = spring * y[XI1] - damper * y[ETA1]
+        K[row, XI2] = dt * y[ETA2]
+        K[row, ETA2] = spring * y[XI2] - damper * y[ETA2]

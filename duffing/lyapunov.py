@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import checks, rk4
+from . import checks
+from .companion import two_trajectory_growth
 from .flow import integrate, stroboscopic_times
 from .sweep import over_blocks
 
@@ -52,7 +53,7 @@ def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d
     checks.count("transient", transient, least=0)
     checks.positive("d0", d0)
     total = transient + checks.count("periods", periods)
-    growth = rk4.two_trajectory_growth(osc, state, total, d0=d0, steps_per_period=steps_per_period)
+    growth = two_trajectory_growth(osc, state, total, d0=d0, steps_per_period=steps_per_period)
     return _average(growth[None, transient:].reshape(1, periods, *osc.shape), osc.period)
 
 

@@ -6,6 +6,8 @@ one period to it. The launch misses W^U by the square of its distance, across it
 the distance once more on the way out. W^S is the same with time reversed.
 """
 
+from functools import partial
+
 import numpy as np
 
 from . import checks
@@ -66,40 +68,39 @@ def _curve(osc, kind, side, length, phase, spacing, turn):
     checks.choice("side", side, (1, -1))
     for name, value in (("length", length), ("spacing", spacing), ("turn", turn)):
         checks.positive(name, value)
+    if length > _MOST * spacing:
+        raise ValueError(f"length = {length}, spacing = {spacing}: must not ask for more than {_MOST} points")
     frame = saddle_frame(osc)
     section = checks.parameter("phase", phase) / frame.osc.omega[0]
-    piece, total = frame.osc.period[0] / 32, 0.0
-    flight, curve = np.zeros(1), _points(frame, kind, side, section, np.zeros(1))
+    points_at = partial(_points, frame, kind, side, section)
+    piece, total = frame.osc.period[0] / 32 * np.linspace(0, 1, 5), 0.0
+    flight, curve = np.zeros(1), points_at(np.zeros(1))
     while total < length:
-        more = flight[-1] + piece * np.linspace(0, 1, 5)
-        points = np.concatenate([curve[:, -1:], _points(frame, kind, side, section, more[1:])], axis=1)
-        more, points = _refined(more, points, frame, kind, side, section, spacing, turn)
+        more = flight[-1] + piece
+        points = np.append(curve[:, -1:], points_at(more[1:]), axis=1)
+        more, points = _refined(more, points, points_at, spacing, turn)
         flight, curve = np.append(flight, more[1:]), np.append(curve, points[:, 1:], axis=1)
-        if flight.size > _MOST:
-            raise ConvergenceError(f"length = {length}: the curve needs more than {_MOST} points")
         total = np.hypot(*np.diff(curve)).sum()
+    _, curve = _refined(flight, curve, points_at, spacing, turn)  # across the joints of the pieces
     keep = np.append(0, np.hypot(*np.diff(curve)).cumsum()) <= length
     return curve[:, keep] * units(osc)[:2, None]
 
 
-def _refined(flight, points, frame, kind, side, section, spacing, turn):
+def _refined(flight, curve, points_at, spacing, turn):
     """Halve the intervals of the flight time until points are as near, and chords as aligned, as asked."""
     while True:
-        chord = np.diff(points)
-        distance = np.hypot(*chord)
-        coarse = distance > spacing
-        heading = np.arctan2(chord[1], chord[0])
+        chord = np.diff(curve)
+        distance, heading = np.hypot(*chord), np.arctan2(chord[1], chord[0])
         bend = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi) > turn
         bent = np.append(bend, False) | np.append(False, bend)
-        coarse |= bent & (distance > spacing / 100)
-        where = np.flatnonzero(coarse)
+        where = np.flatnonzero((distance > spacing) | (bent & (distance > spacing / 100)))
         if where.size == 0:
-            return flight, points
+            return flight, curve
         if flight.size + where.size > _MOST:
             raise ConvergenceError(f"the curve needs more than {_MOST} points")
         middle = (flight[where] + flight[where + 1]) / 2
         flight = np.insert(flight, where + 1, middle)
-        points = np.insert(points, where + 1, _points(frame, kind, side, section, middle), axis=1)
+        curve = np.insert(curve, where + 1, points_at(middle), axis=1)
 
 
 def _points(frame, kind, side, section, flight):

@@ -39,7 +39,7 @@ def exponent_curve(p, step=0.001, last=0.5, osc=paper.OSCILLATOR, d0=None, steps
 
 
 @lru_cache
-def onsets(p, step=0.001, first=0.1, last=0.5, osc=paper.OSCILLATOR):
+def onsets(p, step=0.001, first=0.1, last=0.35, osc=paper.OSCILLATOR):
     """The least mu of the grid with lambda_1 above the paper's threshold, for each p of the tuple: (len(p),).
 
     The search begins at `first`, above the false positive exponents that the paper's step makes near mu = 0 at small p.

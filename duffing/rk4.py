@@ -8,9 +8,7 @@ depend on the machine, on threads or on the family that a member belongs to: in 
 """
 
 import os
-from concurrent.futures import ThreadPoolExecutor
 
-import mpmath
 import numpy as np
 from llvmlite import ir
 from numba import carray, njit, types
@@ -19,6 +17,7 @@ from numba.extending import intrinsic
 
 from . import checks
 from .errors import DivergedError
+from .forcing import in_blocks
 from .orbit import Orbit
 from .powers import evaluate, fma, power
 
@@ -28,8 +27,6 @@ LANES, WIDTH = 64, 8
 LEAST_SPEED = 2.0**-50
 # Steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval.
 BETWEEN = 50
-# Forcing phases are rounded to 1/GRID turns: equal phases are then seen as equal, and none drifts over many periods.
-GRID = 2.0**40
 
 # Rows of a block's workspace: the state and tangents at the start of the step, at the stage, and the sum of slopes;
 # then the step, the parameters, and the tangents as last made orthonormal.
@@ -37,10 +34,6 @@ _X, _V, _TANGENT = 0, 1, 2
 _START, _STAGE, _SUM = 0, 6, 12
 _H, _ALPHA, _P, _MU, _DELTA, _GAMMA, _Q = 18, 19, 20, 21, 22, 23, 24
 _ROWS = 28
-
-# Taylor coefficients of cos(2 pi u) in u^2: on a quarter turn the next one is below 1e-18.
-with mpmath.workprec(100):
-    _COSINE = tuple(float((-4 * mpmath.pi**2) ** k / mpmath.factorial(2 * k)) for k in range(13))
 
 
 def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
@@ -61,10 +54,11 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     Raises
     ------
     ValueError : for invalid input
-    DivergedError : when a solution or a tangent is not finite (for p < 1 also a tangent of exact rest, v = 0: there
-        the damping contracts without bound, which an explicit step cannot follow)
+    DivergedError : when a solution or a tangent is not finite
+
+    For p < 1 a member at exact rest (mu = 0, v = 0, no force) has growth 0 and -inf, propagator diag(1, 0).
     """
-    columns, state, t, steps_per_period, threads = _checked(osc, state, t, steps_per_period, threads)
+    columns, state, t, steps_per_period, threads = checked(osc, state, t, steps_per_period, threads)
     tangents = checks.count("tangents", tangents, least=0)
     if tangents > 2:
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
@@ -72,56 +66,22 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     states, growth = np.empty((2, n, size)), np.zeros((tangents, n - 1, size))
     propagators = np.tile(np.eye(2)[:, :, None, None], (n - 1, size)) if tangents == 2 else np.empty((0, 0, 0, 0))
 
-    def run(members, padded, h, law, forcing):
-        start = (columns[:, padded], state[:, padded], h)
-        _advance(*start, *forcing, law, (0,) * tangents, members, states, growth, propagators)
+    def run(members, padded, h, forcing):
+        start, law = (columns[:, padded], state[:, padded], h), damping_law(columns[1, members[0]])
+        advance(*start, *forcing, law, (0,) * tangents, members, states, growth, propagators)
 
-    _in_blocks(run, columns, t, steps_per_period, threads)
-    _check_finite(columns, states, growth, propagators)
+    in_blocks(run, columns, t, steps_per_period, threads, LANES, WIDTH)
+    rest = _rests(columns, state)
+    growth[..., rest] = 0.0
+    if tangents == 2:
+        propagators[..., rest] = np.diag([1.0, 0.0])[:, :, None, None]
+    check_finite(columns, states, growth, propagators)
+    growth[1:, :, rest] = -np.inf
     return Orbit(states, growth, propagators if tangents == 2 else None)
 
 
-def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, threads=None):
-    """Log growth (periods, N), per forcing period, of the distance to a companion started at (x + d0, v) and t = 0.
-
-    After each period the companion is put back to the distance d0 along the separation reached (Benettin et al. 1980).
-    Where the two have become equal in every bit, the separation counts as one unit in the last place of the larger of
-    |x|, |v|, so that the growth recorded is an upper bound, and the companion starts anew at (x + d0, v).
-
-    osc, state, steps_per_period, threads as in `integrate`; raises ValueError for invalid input, also for a d0 that
-    x + d0 cannot show, and DivergedError when a solution is not finite.
-    """
-    periods, d0 = checks.count("periods", periods), checks.positive("d0", d0)
-    period = np.array([[0.0], [1.0]]) * np.ravel(np.broadcast_to(osc.period, osc.shape))
-    columns, state, t, steps_per_period, threads = _checked(osc, state, period, steps_per_period, threads)
-    if np.any(state[0] + d0 == state[0]):
-        raise ValueError(f"d0 = {d0}: must be large enough to change x = {state[0]} in double precision")
-    growth = np.empty((periods, columns.shape[1]))
-
-    def run(members, padded, h, law, forcing):
-        lanes = np.arange(len(padded))
-        ends, nothing = np.empty((2, 2, 2, len(lanes))), (np.empty((0, 1, 0)), np.empty((0, 0, 0, 0)))
-        start = np.array([[d0], [0.0]])
-        pair = np.repeat(state[None, :, padded], 2, axis=0)
-        for i in range(periods):
-            pair[1] = pair[0] + start
-            before = np.sqrt(((pair[1] - pair[0]) ** 2).sum(axis=0))
-            for each in range(2):
-                _advance(columns[:, padded], pair[each], h, *forcing, law, (), lanes, ends[each], *nothing)
-            _check_finite(columns[:, padded], *ends)
-            pair = np.ascontiguousarray(ends[:, :, 1])
-            apart = pair[1] - pair[0]
-            distance = np.sqrt((apart**2).sum(axis=0))
-            merged = distance == 0
-            distance = np.where(merged, np.spacing(np.abs(pair[0]).max(axis=0)), distance)
-            growth[i, members] = np.log(distance / before)[: len(members)]
-            start = np.where(merged, [[d0], [0.0]], apart * (d0 / distance))
-
-    _in_blocks(run, columns, t, steps_per_period, threads)
-    return growth
-
-
-def _checked(osc, state, t, steps_per_period, threads):
+def checked(osc, state, t, steps_per_period, threads):
+    """The arguments of `integrate` as columns (6, N), state (2, N), t (n, 1) or (n, N), and two whole numbers."""
     columns = osc.columns()
     size = columns.shape[1]
     state = checks.state(state, (size,) if np.shape(state) == (2, size) else osc.shape)
@@ -133,7 +93,8 @@ def _checked(osc, state, t, steps_per_period, threads):
     return columns, state, t, checks.count("steps_per_period", steps_per_period), threads
 
 
-def _check_finite(columns, *results):
+def check_finite(columns, *results):
+    """Raise DivergedError, with the parameters of the first such member, unless all results (..., N) are finite."""
     bad = ~np.all([np.isfinite(r).all(axis=tuple(range(r.ndim - 1))) for r in results if r.size], axis=0)
     if np.any(bad):
         names = ("alpha", "p", "mu", "omega", "delta", "gamma")
@@ -141,58 +102,23 @@ def _check_finite(columns, *results):
         raise DivergedError(f"{bad.sum()} of {bad.size} solutions or tangents are not finite; the first has {first}")
 
 
-def _in_blocks(run, columns, t, steps_per_period, threads):
-    """Call run(members, padded, h, law, forcing) for blocks of members with one p and one sequence of phases."""
-    # With common times only the frequencies tell the members' clocks apart.
-    own = t.shape[1] > 1
-    omega, clock = (columns[3], np.arange(columns.shape[1])) if own else np.unique(columns[3], return_inverse=True)
-    turns = t * omega / (2 * np.pi)
-    # A millionth of a step of slack: round-off in the times must not add a step.
-    counts = np.maximum(np.ceil(np.diff(turns, axis=0) * steps_per_period - 1e-6), 1).astype(int)
-    phases = np.rint(turns * GRID)
-    spans = np.diff(phases, axis=0)
-    # Whole periods are whole whatever the round-off in t: their step is the same at any time.
-    lengths = np.where(spans % GRID == 0, spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
-    h = lengths / counts
-    forcings, groups = {}, {}
-    for c in range(len(omega)):
-        key = (phases[:-1, c] % GRID).tobytes() + spans[:, c].tobytes() + counts[:, c].tobytes()
-        if key not in forcings:
-            forcings[key] = _forcing(phases[:-1, c], spans[:, c], np.ascontiguousarray(counts[:, c]))
-        for member in np.flatnonzero(clock == c):
-            groups.setdefault((columns[1, member], key), []).append(member)
-
-    def run_block(p, key, members):
-        padded = np.resize(members, -(-len(members) // WIDTH) * WIDTH)
-        law = None if p == 1 else power(p - 1, LEAST_SPEED if p < 1 else 2.0**-1022)
-        run(members, padded, np.ascontiguousarray(h[:, clock[padded]]), law, forcings[key])
-
-    blocks = [(*k, np.array(m[i : i + LANES])) for k, m in groups.items() for i in range(0, len(m), LANES)]
-    with ThreadPoolExecutor(threads) as pool:
-        list(pool.map(run_block, *zip(*blocks, strict=True)))
+def damping_law(p):
+    """|v|^(p-1) set up for `advance`: None for p = 1, else a Power. Raises ValueError for p beyond about 200."""
+    try:
+        return None if p == 1 else power(p - 1, LEAST_SPEED if p < 1 else 2.0**-1022)
+    except ValueError:
+        raise ValueError(f"p = {p}: must be below about 200, else |v|^(p-1) has no table of reasonable size") from None
 
 
-def _forcing(phases, spans, counts):
-    """cos(omega t) at the ends and middles of all steps, the place of each interval in that table, and its steps."""
-    tables, offsets, known, length = [np.empty(0)], [], {}, 0
-    for interval in zip(phases % GRID, spans, counts, strict=True):
-        if interval not in known:
-            start, turn, count = interval
-            known[interval] = length
-            tables.append(_cosine_of_turns((start + turn * (np.arange(2 * count + 1) / (2 * count))) / GRID))
-            length += 2 * count + 1
-        offsets.append(known[interval])
-    return np.concatenate(tables), np.array(offsets, dtype=int), counts
+def _rests(columns, state):
+    """Members at exact rest whose damping has an infinite slope there (p < 1), so that no step follows their tangents.
 
-
-def _cosine_of_turns(turns):
-    """cos(2 pi turns) by its Taylor series up to a quarter turn: a library's cosine differs between machines."""
-    part = np.abs(turns - np.rint(turns))
-    z = np.minimum(part, 0.5 - part) ** 2
-    total = 0.0
-    for coefficient in reversed(_COSINE):
-        total = total * z + coefficient
-    return np.where(part > 0.25, -total, total)
+    The derivative of the flow is known: a small xi creeps back at a speed of order |xi|^(1/p), a small eta stops after
+    a way of order |eta|^(2-p). Both are of higher than first order: xi stays as it is, and of eta nothing is left.
+    """
+    alpha, p, mu, _, delta, gamma = columns
+    x, v = state
+    return (p < 1) & (alpha > 0) & (mu == 0) & (v == 0) & ((delta + gamma * x * x) * x == 0)
 
 
 @intrinsic
@@ -208,7 +134,7 @@ def _workspace(typingctx):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _advance(columns, state, h, cosines, offsets, counts, law, basis, members, states, growth, propagators):
+def advance(columns, state, h, cosines, offsets, counts, law, basis, members, states, growth, propagators):
     """Advance one block through all intervals. law: None for p = 1; basis: a tuple as long as there are tangents.
 
     growth comes in as zeros, propagators as identities.

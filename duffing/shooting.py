@@ -73,6 +73,8 @@ def _continuation(columns, t):
         part = Duffing(*columns[:2], columns[2] * k / 16, *columns[3:])
         states = linear_response(part, t[:-1]) if states is None else states * k / (k - 1)
         states, found = _newton(part, t, states)
+        if not found.any():
+            break
     return states, found
 
 
@@ -83,12 +85,14 @@ def _newton(unit, t, states):
     factor, found = np.ones(size), np.zeros(size, dtype=bool)
     for _ in range(_STEPS):
         step = _step(gap, maps)
-        found |= np.abs(step).max(axis=(0, 1)) < 1e-11
+        last = ~found & (np.abs(step).max(axis=(0, 1)) < 1e-9)
+        states = np.where(last, states + step, states)
+        found |= last
         if found.all():
             break
         trial = states + factor * step
         new_gap, new_maps, _ = _shoot(unit, t, trial)
-        better = np.abs(new_gap).max(axis=(0, 1)) < np.abs(gap).max(axis=(0, 1))
+        better = ~found & (np.abs(new_gap).max(axis=(0, 1)) < np.abs(gap).max(axis=(0, 1)))
         states, gap, maps = (np.where(better, *pair) for pair in ((trial, states), (new_gap, gap), (new_maps, maps)))
         factor = np.where(better, np.minimum(1, 2 * factor), factor / 2)
     return states, found

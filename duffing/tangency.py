@@ -36,7 +36,7 @@ def splitting(osc, phase):
         raise ValueError(f"phase has shape {phase.shape}: must be a number or a sequence of them")
     frame = saddle_frame(osc)
     values, _ = _split(frame, np.repeat(phase.reshape(-1, 1), frame.osc.mu.size, axis=1))
-    return (values.reshape(*phase.shape, *osc.shape) * units(osc)[0])[()]
+    return (values.reshape(phase.shape + osc.shape) * units(osc)[0])[()]
 
 
 def homoclinic_tangency(osc):

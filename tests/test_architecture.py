@@ -14,7 +14,7 @@ PACKAGE = Path(duffing.__file__).parent
 ORDER = [
     "errors", "checks", "arithmetic", "oscillator", "orbit",
     "melnikov",
-    "powers", "rk4",
+    "powers", "forcing", "rk4", "companion",
     "friction_time", "dop853", "creep", "follow", "friction",
     "flow",
     "poincare", "sweep", "lyapunov", "saddle", "shooting", "manifolds", "tangency",

@@ -37,7 +37,7 @@ def reference(osc, state, t0, t1=None, rtol=1e-13):
     return np.array([t, x, np.copysign(abs(u) ** m, u)])
 
 
-def stiff_reference(osc, state, t, rtol=1e-11, width=1e-10):
+def stiff_reference(osc, state, t, start=0.0, rtol=1e-11, width=1e-10):
     """State at t by SciPy's LSODA in physical time, |v|^(p-1) made smooth within a width: its creep is followed, too.
 
     What the smoothing displaces is below width (the velocity where it acts) times t.
@@ -47,7 +47,7 @@ def stiff_reference(osc, state, t, rtol=1e-11, width=1e-10):
         x, v = y
         return [v, osc.force(x, t) - osc.alpha * v * (v * v + width**2) ** ((osc.p - 1) / 2)]
 
-    solution = solve_ivp(rates, (0, t), state, "LSODA", rtol=rtol, atol=1e-14)
+    solution = solve_ivp(rates, (start, t), state, "LSODA", rtol=rtol, atol=1e-14)
     assert solution.success
     return solution.y[:, -1]
 
@@ -256,6 +256,14 @@ def test_mass_at_rest_without_force_stays_there():
         # Free of damping the linear motion about the well has frequency sqrt(2); with p < 1 it is stuck.
         area = {0.1: -np.inf, 0.7: -np.inf, 1.0: -0.1 * PERIOD}.get(p, 0.0)
         assert orbit.growth.sum() == pytest.approx(area, abs=1e-7)
+
+
+@pytest.mark.parametrize(("p", "annihilated"), [(0.3, True), (0.45, True), (0.6, False), (0.7, False)])
+def test_start_at_rest_where_the_force_passes_through_zero_moves_on(p, annihilated):
+    osc, t = Duffing(p=p, mu=0.1), np.array([0.25, 0.75]) * PERIOD
+    orbit = friction.integrate(osc, [0.0, 0.0], t, tangents=2)
+    assert np.abs(orbit.states[:, -1, 0] - stiff_reference(osc, [0.0, 0.0], t[1], start=t[0])).max() < 1e-8
+    assert np.isinf(orbit.friction_time[0, 0]) == np.isinf(orbit.growth[1, 0, 0]) == annihilated
 
 
 def test_radau_stages_integrate_polynomials_exactly():

@@ -1,0 +1,88 @@
+"""The forcing on the grid of steps: tables of cos(omega t), shared by all members whose steps meet the same phases.
+
+A family is cut into blocks of members with one exponent p and one table, so that a kernel can advance them side by
+side. Phases are counted in turns and rounded once, the cosine is spelled out: the tables are the same on any machine.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import mpmath
+import numpy as np
+
+# Forcing phases are rounded to 1/GRID turns: equal phases are then seen as equal, and none drifts over many periods.
+GRID = 2.0**40
+
+# Taylor coefficients of cos(2 pi u) in u^2: on a quarter turn the next one is below 1e-18.
+with mpmath.workprec(100):
+    _COSINE = tuple(float((-4 * mpmath.pi**2) ** k / mpmath.factorial(2 * k)) for k in range(13))
+
+
+def in_blocks(run, columns, t, steps_per_period, threads, lanes, width):
+    """Call run(members, padded, h, forcing) for blocks of members with one p and one sequence of forcing phases.
+
+    Parameters
+    ----------
+    run : called on up to `threads` threads at once with the block's members, at most `lanes` indices; the same
+        repeated up to a multiple of `width`; their steps h (n - 1, padded); and the forcing as (cosines, offsets,
+        counts): interval i has counts[i] steps, with cos(omega t) at their ends and middles from cosines[offsets[i]]
+    columns : (6, N) parameters as from `Duffing.columns`
+    t : (n, 1) for all members or (n, N), increasing times; each interval is cut into the least number of equal steps
+    steps_per_period : the least number of steps in a forcing period 2 pi / omega
+    """
+    # With common times only the frequencies tell the members' clocks apart.
+    own = t.shape[1] > 1
+    omega, clock = (columns[3], np.arange(columns.shape[1])) if own else np.unique(columns[3], return_inverse=True)
+    h, kind, forcings = _steps(omega, t, steps_per_period)
+    groups = {}
+    for member, key in enumerate(zip(columns[1], kind[clock], strict=True)):
+        groups.setdefault(key, []).append(member)
+
+    def run_block(members, forcing):
+        padded = np.resize(members, -(-len(members) // width) * width)
+        run(members, padded, np.ascontiguousarray(h[:, clock[padded]]), forcing)
+
+    blocks = [(np.array(m[i : i + lanes]), forcings[k]) for (_, k), m in groups.items() for i in range(0, len(m), lanes)]
+    with ThreadPoolExecutor(threads) as pool:
+        list(pool.map(run_block, *zip(*blocks, strict=True)))
+
+
+def _steps(omega, t, steps_per_period):
+    """For each clock the steps h (n - 1, clocks) and the index of its forcing in a list of different forcings."""
+    turns = t * omega / (2 * np.pi)
+    # A millionth of a step of slack: round-off in the times must not add a step.
+    counts = np.maximum(np.ceil(np.diff(turns, axis=0) * steps_per_period - 1e-6), 1).astype(int)
+    phases = np.rint(turns * GRID)
+    spans = np.diff(phases, axis=0)
+    # Whole periods are whole whatever the round-off in t: their step is the same at any time.
+    lengths = np.where(spans % GRID == 0, spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
+    known, kind, forcings = {}, [], []
+    for c in range(len(omega)):
+        key = (phases[:-1, c] % GRID).tobytes() + spans[:, c].tobytes() + counts[:, c].tobytes()
+        if key not in known:
+            known[key] = len(forcings)
+            forcings.append(_forcing(phases[:-1, c], spans[:, c], np.ascontiguousarray(counts[:, c])))
+        kind.append(known[key])
+    return lengths / counts, np.array(kind), forcings
+
+
+def _forcing(phases, spans, counts):
+    """cos(omega t) at the ends and middles of all steps, the place of each interval in that table, and its steps."""
+    tables, offsets, known, length = [np.empty(0)], [], {}, 0
+    for interval in zip(phases % GRID, spans, counts, strict=True):
+        if interval not in known:
+            start, turn, count = interval
+            known[interval] = length
+            tables.append(_cosine_of_turns((start + turn * (np.arange(2 * count + 1) / (2 * count))) / GRID))
+            length += 2 * count + 1
+        offsets.append(known[interval])
+    return np.concatenate(tables), np.array(offsets, dtype=int), counts
+
+
+def _cosine_of_turns(turns):
+    """cos(2 pi turns) by its Taylor series up to a quarter turn: a library's cosine differs between machines."""
+    part = np.abs(turns - np.rint(turns))
+    z = np.minimum(part, 0.5 - part) ** 2
+    total = 0.0
+    for coefficient in reversed(_COSINE):
+        total = total * z + coefficient
+    return np.where(part > 0.25, -total, total)
