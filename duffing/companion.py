@@ -8,7 +8,7 @@ import numpy as np
 
 from . import checks
 from .forcing import in_blocks
-from .rk4 import LANES, WIDTH, advance, check_finite, checked, damping_law
+from .rk4 import LANES, WIDTH, advance, check_finite, checked
 
 
 def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, threads=None):
@@ -28,8 +28,8 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
         raise ValueError(f"d0 = {d0}: must be large enough to change x = {state[0]} in double precision")
     growth = np.empty((periods, columns.shape[1]))
 
-    def run(members, padded, h, forcing):
-        law, lanes = damping_law(columns[1, members[0]]), np.arange(len(padded))
+    def run(members, padded, h, law, forcing):
+        lanes = np.arange(len(padded))
         ends, nothing = np.empty((2, 2, 2, len(lanes))), (np.empty((0, 1, 0)), np.empty((0, 0, 0, 0)))
         start = np.array([[d0], [0.0]])
         pair = np.repeat(state[None, :, padded], 2, axis=0)

@@ -21,7 +21,8 @@ import math
 
 import numpy as np
 
-from .friction_time import ALPHA, DELTA, ETA1, GAMMA, MU, XI1, P, S, T, X, compiled, force, stiffness
+from .compiled import compiled
+from .friction_time import ALPHA, DELTA, ETA1, GAMMA, MU, XI1, P, S, T, X, force, stiffness
 
 STAGES = 5
 SLOW = 0.3  # near the slow branch |F - alpha Y| is less than this part of the force
@@ -127,7 +128,7 @@ def creep(q, y, Y0, h, tangents, rtol, atol, new):
         ex += h * _DIFFERENCE[i] * v[i]
         ev += h * _DIFFERENCE[i] * (F[i] - q[ALPHA] * Y[i])
     ev *= phi[STAGES] / (phi[STAGES] + 0.1 * h * q[ALPHA])  # the relaxation damps what the estimate sees of it
-    scale = atol + rtol * math.hypot(x[STAGES], v[STAGES])
+    scale = atol + rtol * math.hypot(x[0], v[0])  # of the old point, as in dop853
     return Y[STAGES], math.hypot(ex, ev) / scale, passages, count
 
 

@@ -9,7 +9,8 @@ import math
 import numpy as np
 from scipy.integrate import DOP853
 
-from .friction_time import ETA1, ETA2, XI1, XI2, M, S, T, W, X, compiled, rate
+from .compiled import compiled
+from .friction_time import ETA1, ETA2, XI1, XI2, M, S, T, W, X, rate
 
 STAGES = 13  # twelve, and the rate at the new point, which is the first stage of the next step
 _TABLE = np.vstack([DOP853.A, DOP853.B])  # the last row leads to the new point
@@ -58,7 +59,8 @@ def error(q, y, new, h, K, rtol, atol):
     v = K[12, X] / K[12, T] if K[12, T] > 0.0 else 0.0
     phi = q[M] * v / new[W] if new[W] != 0.0 else 1.0 * (q[M] == 1.0)
     acceleration = K[12, W] * (1.0 if q[M] == 1.0 else q[M] + phi)
-    scale = atol + rtol * math.hypot(new[X], v)
+    # Of the old point: a step that has gone wild would excuse itself by the size of what it leads to.
+    scale = atol + rtol * math.hypot(y[X], K[0, X] / K[0, T] if K[0, T] > 0.0 else 0.0)
     squares5, squares3 = 0.0, 0.0
     for order in (5, 3):
         ex, ew, et = 0.0, 0.0, 0.0

@@ -5,6 +5,7 @@ Which of the two is taken decides what a result costs, not what it is: both keep
 
 import math
 
+from .compiled import compiled
 from .creep import SLOW, at_rest, creep
 from .dop853 import advance, error, land
 from .friction_time import (
@@ -21,7 +22,6 @@ from .friction_time import (
     T,
     W,
     X,
-    compiled,
     force,
     powers,
     rate,

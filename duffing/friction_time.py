@@ -21,15 +21,13 @@ and sigma is time: the same code. Other p > 1 gain from the variable w, too: v |
 import math
 
 import numpy as np
-from numba import njit
+
+from .compiled import compiled
 
 # The parameters of one trajectory, in the order of Duffing.columns(), then m, n and the time where y[T] = 0.
 ALPHA, P, MU, OMEGA, DELTA, GAMMA, M, N, START = range(9)
 # Its state: x, w, time since START, friction time since START, two tangent vectors (xi, eta).
 X, W, T, S, XI1, ETA1, XI2, ETA2 = range(8)
-
-# Division by zero gives an infinity, as in NumPy: the step control rejects what is not finite.
-compiled = njit(cache=True, nogil=True, error_model="numpy")
 
 _SMOOTHNESS = 8  # the least m - 1 for which the pair keeps its order at w = 0
 

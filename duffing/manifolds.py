@@ -19,6 +19,7 @@ from .saddle import saddle_frame, units
 UNSTABLE, STABLE = 0, 1
 DISTANCE = 1e-6  # of the launch from the saddle orbit, in the unit of length sqrt(-delta/gamma)
 _MOST = 100_000  # points of a curve
+_PERIODS = 20  # after the unperturbed loop's outermost point: a branch that has not grown by then does not
 
 
 def unstable_manifold(osc, side=1, length=6.0, phase=0.0, spacing=0.02, turn=0.1):
@@ -81,6 +82,8 @@ def _curve(osc, kind, side, length, phase, spacing, turn):
         more, points = _refined(more, points, points_at, spacing, turn)
         flight, curve = np.append(flight, more[1:]), np.append(curve, points[:, 1:], axis=1)
         total = np.hypot(*np.diff(curve)).sum()
+        if flight[-1] > np.log(4 / DISTANCE) + _PERIODS * frame.osc.period[0] and total < length:
+            raise ConvergenceError(f"length = {length}: the branch is {total:.4g} long and goes into an attractor")
     _, curve = _refined(flight, curve, points_at, spacing, turn)  # across the joints of the pieces
     keep = np.append(0, np.hypot(*np.diff(curve)).cumsum()) <= length
     return curve[:, keep] * units(osc)[:2, None]

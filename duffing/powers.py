@@ -18,6 +18,8 @@ import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic
 
+from .compiled import compiled
+
 DEGREE = 8
 MOST_BITS = 10  # a table of 2048 x 2^10 doubles, 16 MB: enough for |q| up to about 200
 _PRECISION = 120  # bits of the table's recurrence; all else has twice as many
@@ -140,7 +142,7 @@ def evaluate(v, q):
     return q.table[cell] * fma(fma(c[8], r4, high), r4, low)
 
 
-@njit(cache=True)
+@compiled
 def powers(v, q):
     """max(|v|, q.least)^q for a float array v of any shape (the loop that a kernel would write itself)."""
     result = np.empty_like(v)

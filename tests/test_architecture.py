@@ -12,12 +12,12 @@ import duffing
 PACKAGE = Path(duffing.__file__).parent
 # A module imports only from the rows above its own (and freely within a row's left part: see the test).
 ORDER = [
-    "errors", "checks", "arithmetic", "oscillator", "orbit",
+    "compiled", "errors", "checks", "arithmetic", "oscillator", "orbit",
     "melnikov",
     "powers", "forcing", "rk4", "companion",
-    "friction_time", "dop853", "creep", "follow", "friction",
+    "friction_time", "dop853", "creep", "follow", "flight", "friction", "turning",
     "flow",
-    "poincare", "sweep", "lyapunov", "saddle", "shooting", "manifolds", "tangency",
+    "poincare", "sweep", "lyapunov", "shooting", "saddle", "manifolds", "tangency", "correction", "sticking",
     "precision", "paper", "reproduction", "small_p",
     "verdicts", "findings_theory", "findings_exponents", "findings_motion", "ledger",
     "page_figure", "figures", "figures_beyond",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from duffing import Duffing, critical_amplitude
+from duffing import ConvergenceError, Duffing, critical_amplitude
 from duffing.manifolds import stable_manifold, unstable_manifold
 from duffing.saddle import saddle_orbit
 
@@ -121,6 +121,12 @@ def test_loops_cross_above_the_critical_amplitude_in_pairs_and_not_below(side):
 def test_scaling_carries_a_curve_over_exactly():
     curve, unit = unstable_manifold(GENERAL, length=2.0), unstable_manifold(GENERAL.dimensionless(), length=2.0)
     np.testing.assert_allclose(curve, np.array([[2.0], [2.0 * np.sqrt(2.0)]]) * unit, rtol=1e-12)
+
+
+def test_branch_that_ends_in_an_attractor_has_no_more_length_than_that():
+    """Unforced and damped, W^U is the solution that leaves the saddle point and falls into the well."""
+    with pytest.raises(ConvergenceError, match=r"the branch is .* long and goes into an attractor"):
+        unstable_manifold(Duffing(alpha=0.5, mu=0.0), length=20.0)
 
 
 def test_bad_input_is_refused_by_name():

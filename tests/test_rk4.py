@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from duffing import rk4
+from duffing import friction, rk4
 from duffing.errors import DivergedError
 from duffing.oscillator import Duffing
 
@@ -105,57 +105,6 @@ def test_bits_depend_neither_on_blocks_nor_on_threads_nor_on_order(p):
         assert np.array_equal(part.growth, everything.growth[..., chosen])
 
 
-def test_round_off_in_the_times_adds_no_step(monkeypatch):
-    seen = []
-    kernel = rk4._advance
-    monkeypatch.setattr(rk4, "_advance", lambda *a: (seen.append(a[5]), kernel(*a)))
-    osc = Duffing(omega=1.3)
-    rk4.integrate(osc, START, osc.period / 10 * np.arange(1201))
-    assert np.array_equal(np.unique(seen[0]), [50])
-
-
-def test_members_of_different_frequency_at_their_own_periods_share_the_phases_of_a_single_one():
-    osc = Duffing(p=0.5, mu=0.25, omega=np.array([0.6, 1.0, 1.7]))
-    t = np.arange(41)[:, None] * osc.period
-    orbit = rk4.integrate(osc, START, t)
-    for i, omega in enumerate(osc.omega):
-        alone = Duffing(p=0.5, mu=0.25, omega=omega)
-        assert np.array_equal(rk4.integrate(alone, START, _periods(alone, 40)).states[..., 0], orbit.states[..., i])
-
-
-def test_members_with_times_of_their_own_move_as_they_do_alone():
-    # Period 1 and binary fractions: the spacings are equal in every bit, the phases at the start are not.
-    osc = Duffing(p=0.5, mu=3.0, omega=2 * np.pi, alpha=np.full(3, 0.1))
-    t = np.array([0.0, 0.25, 0.625]) + 0.5 * np.arange(5)[:, None]
-    together = rk4.integrate(osc, START, t).states
-    for i in range(3):
-        alone = rk4.integrate(Duffing(p=0.5, mu=3.0, omega=2 * np.pi), START, t[:, i]).states
-        assert np.array_equal(alone[..., 0], together[..., i])
-    assert np.abs(together[:, -1, 0] - together[:, -1, 1]).max() > 0.1
-
-
-def test_start_later_by_whole_periods_changes_no_bit():
-    osc = Duffing(p=np.array([0.1, 1.0]), mu=0.27, omega=1.1)
-    early = rk4.integrate(osc, START, _periods(osc, 30), tangents=1)
-    late = rk4.integrate(osc, START, _periods(osc, 30) + 1000 * osc.period, tangents=1)
-    assert np.array_equal(early.states, late.states)
-    assert np.array_equal(early.growth, late.growth)
-
-
-@pytest.mark.parametrize("omega", [0.3, 1.0, 2.7])
-def test_each_interval_takes_the_least_number_of_steps_not_longer_than_the_papers(omega, monkeypatch):
-    seen = []
-    kernel = rk4._advance
-    monkeypatch.setattr(rk4, "_advance", lambda *a: (seen.append((a[2], a[5])), kernel(*a)))
-    osc = Duffing(omega=omega)
-    longest = osc.period / 500
-    t = np.cumsum([0.0, osc.period, osc.period / 4, 0.4 * longest, 3.5 * longest, 240 * osc.period])
-    rk4.integrate(osc, START, t)
-    h, counts = seen[0]
-    assert counts.tolist() == [500, 125, 1, 4, 120000]
-    assert np.allclose(h[:, 0] * counts, np.diff(t), rtol=1e-14)
-
-
 @pytest.mark.parametrize("p", [0.1, 0.5, 1.0, 2.0])
 def test_motion_is_symmetric_under_reflection_and_half_a_period(p):
     osc = Duffing(p=p, mu=0.21, omega=1.3)
@@ -216,40 +165,42 @@ def test_rest_under_power_law_damping_stays_at_rest_exactly():
     assert np.array_equal(rk4.integrate(osc, (1.0, 0.0), [0.0, 7.0]).states[:, 1], [[1.0] * 3, [0.0] * 3])
 
 
+def test_tangent_map_of_exact_rest_for_p_below_one_is_the_derivative_of_the_flow():
+    osc, t = Duffing(p=0.5, mu=0.0), [0.0, 3.0, 7.0]
+    orbit = rk4.integrate(osc, (1.0, 0.0), t, tangents=2)
+    # By the other integrator: what a small d displaces is of order d^(1/p - 1) in x, d^(1 - p) in v, beside d itself.
+    d = 1e-8
+    rest, in_x, in_v = (friction.integrate(osc, s, t).states[:, -1, 0] for s in ((1, 0), (1 + d, 0), (1, d)))
+    derivative = np.transpose([(in_x - rest) / d, (in_v - rest) / d])
+    product = orbit.propagators[..., 1, 0] @ orbit.propagators[..., 0, 0]
+    assert np.abs(product - derivative).max() < 1e-3
+    assert np.array_equal(orbit.growth[..., 0], [[0.0, 0.0], [-np.inf, -np.inf]])
+
+
+def test_members_forced_moving_or_off_balance_do_not_count_as_at_rest():
+    mu, starts = np.array([0.0, 0.3, 0.0, 0.0]), np.array([[-1.0, -1.0, -1.0, -0.9], [0.0, 0.0, 0.2, 0.0]])
+    together = rk4.integrate(Duffing(p=0.1, mu=mu), starts, [0.0, 7.0], tangents=1)
+    alone = rk4.integrate(Duffing(p=0.1, mu=mu[1:]), starts[:, 1:], [0.0, 7.0], tangents=1)
+    assert np.array_equal(together.growth[0, 0] == 0, [True, False, False, False])
+    assert np.array_equal(together.growth[..., 1:], alone.growth)
+    assert np.array_equal(together.states[..., 1:], alone.states)
+
+
+def test_tangent_of_undamped_rest_grows_as_in_the_linear_equation():
+    growth = rk4.integrate(Duffing(alpha=0.0, p=0.5, mu=0.0), (0.0, 0.0), [0.0, 3.0], tangents=1).growth[0, 0, 0]
+    assert abs(growth - np.log(np.hypot(np.cosh(3.0), np.sinh(3.0)))) < 1e-7
+
+
 @pytest.mark.parametrize("p", [0.1, 0.5])
 def test_a_start_from_rest_off_balance_has_finite_tangents_for_p_below_one(p):
     orbit = rk4.integrate(Duffing(p=p, mu=0.3), (0.45, 0.0), 2 * np.pi * np.arange(3), tangents=1)
     assert np.all(np.isfinite(orbit.growth))
 
 
-@pytest.mark.parametrize("p", [1.0, 2.0])
-def test_growth_of_two_trajectories_tends_to_the_tangents_in_proportion_to_d0(p):
-    osc = Duffing(p=p, mu=np.array([0.05, 0.1]))
-    tangent = rk4.integrate(osc, START, _periods(osc, 4), tangents=1).growth[0]
-    errors = [np.abs(rk4.two_trajectory_growth(osc, START, 4, d0=d0) - tangent).max(axis=0) for d0 in (1e-5, 1e-6)]
-    assert errors[1].shape == (2,)
-    assert np.all(errors[1] < 1e-3)
-    assert np.all(np.abs(errors[0] / errors[1] - 10) < 0.2)
-
-
-def test_companion_that_merges_gives_a_finite_upper_bound_and_starts_anew():
-    # Critical damping shrinks the separation by (1 + T or less) exp(-T), T = 4 pi, in each period: far below a unit
-    # in the last place of the motion when d0 is a few of them.
-    osc = Duffing(alpha=2.0, p=1, mu=1.0, delta=1.0, gamma=0.0, omega=0.5)
-    d0 = 1e-15
-    growth = rk4.two_trajectory_growth(osc, START, 12, d0=d0)
-    exact = np.log(1 + osc.period) - osc.period
-    assert np.all(growth >= np.log(2.0**-54 / (2 * d0)))
-    assert np.all(growth < 0)
-    assert np.all(growth > exact)
-
-
 def test_diverging_solutions_are_named():
     osc = Duffing(delta=1.0, gamma=-1.0, mu=np.array([0.0, 0.01]))
     with pytest.raises(DivergedError, match=r"1 of 2 .* mu = 0\.01"):
         rk4.integrate(osc, np.array([[0.5, 3.0], [0.0, 0.0]]), [0.0, 50.0])
-    with pytest.raises(DivergedError, match="gamma = -1"):
-        rk4.two_trajectory_growth(osc, (3.0, 0.0), 5)
 
 
 @pytest.mark.parametrize(
@@ -267,20 +218,13 @@ def test_diverging_solutions_are_named():
         ({"steps_per_period": 0}, "steps_per_period = 0"),
         ({"steps_per_period": 10.5}, "steps_per_period = 10.5"),
         ({"threads": 0}, "threads = 0"),
+        ({"osc": Duffing(p=np.array([2.0, 300.0]))}, r"^p = 300\.0: must be"),
     ],
 )
 def test_invalid_input_is_named(change, message):
     arguments = {"osc": Duffing(mu=np.array([0.1, 0.2])), "state": START, "t": [0.0, 1.0]} | change
     with pytest.raises(ValueError, match=message):
         rk4.integrate(**arguments)
-
-
-@pytest.mark.parametrize(
-    ("change", "message"), [({"periods": 0}, "periods = 0"), ({"d0": 0.0}, "d0 = 0"), ({"d0": 1e-30}, "d0 = 1e-30")]
-)
-def test_invalid_input_to_two_trajectories_is_named(change, message):
-    with pytest.raises(ValueError, match=message):
-        rk4.two_trajectory_growth(**({"osc": Duffing(), "state": START, "periods": 2} | change))
 
 
 def test_input_is_not_changed():

