@@ -18,7 +18,7 @@ book: $(READY)
 	@$(BIN)/python extensions/build.py $(JOBS)
 
 test: $(READY)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses=2 --dist=loadfile
 
 lab: $(READY)
 	$(BIN)/jupyter lab --notebook-dir=. --LabApp.default_url=/lab/tree/chapters/index.md $(LAB_OPTIONS)

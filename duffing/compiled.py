@@ -1,7 +1,8 @@
 """Compiled functions whose disk cache never outlives the code: a folder of its own for each state of the package.
 
 Numba keeps compiled code by the file that a function stands in, and does not see an edit in a function that it calls:
-an edited kernel would go on giving the old numbers. So the cache lies in a folder named by a hash of all modules.
+an edited kernel would go on giving the old numbers. So the cache lies in a folder named by a hash of all modules that
+hold compiled code.
 """
 
 import hashlib
@@ -15,10 +16,12 @@ PACKAGE = Path(__file__).parent
 
 
 def fingerprint(package=PACKAGE):
-    """Hash of the names and texts of all modules of the package: a string of twelve hexadecimal digits."""
+    """Hash of the names and texts of the modules with compiled code: a string of twelve hexadecimal digits."""
     digest = hashlib.sha256()
     for path in sorted(Path(package).glob("*.py")):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+        text = path.read_bytes()
+        if b"numba" in text or b".compiled import" in text:
+            digest.update(path.name.encode() + b"\0" + text + b"\0")
     return digest.hexdigest()[:12]
 
 

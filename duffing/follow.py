@@ -141,7 +141,7 @@ def _creep_on(q, y, component, target, limit, carry, tangents, control, frame, t
         if passages < 0 or (passages > 0 and q[P] > 0.5):
             e = math.inf  # a turn, or a passage in finite friction time: for explicit steps to resolve
         if e <= 1.0:
-            if passages > 0 and component == W:
+            if passages > 0 and component == W and new[X] > limit[0]:
                 return STUCK
             tally[PASSAGES] += passages
             Y, new[W] = end, math.copysign(abs(end) ** (1 / q[N]), end)

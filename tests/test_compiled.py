@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import numba
+import pytest
 
 import duffing
 from duffing.compiled import compiled, fingerprint
@@ -18,13 +19,22 @@ print(float(duffing.trajectory(osc, (0.45, 0.1), [0.0, 2.0], method="rk4")[0, 1]
 """
 
 
-def test_the_cache_folder_changes_with_any_edit_of_the_package(tmp_path):
+@pytest.mark.parametrize(("module", "changes"), [("friction_time", True), ("powers", True), ("figures", False)])
+def test_the_cache_folder_changes_with_an_edit_of_compiled_code_and_with_no_other(module, changes, tmp_path):
     copy = tmp_path / "duffing"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     assert fingerprint(copy) == fingerprint()
-    module = copy / "friction_time.py"
-    module.write_text(module.read_text() + "\n")
-    assert fingerprint(copy) != fingerprint()
+    path = copy / f"{module}.py"
+    path.write_text(path.read_text() + "\n")
+    assert (fingerprint(copy) != fingerprint()) == changes
+
+
+def test_every_module_with_compiled_code_counts(tmp_path):
+    """A module that a kernel takes code from is compiled code itself, and says so by its imports."""
+    for path in PACKAGE.glob("*.py"):
+        text = path.read_text()
+        if "@compiled" in text or "njit" in text or "intrinsic" in text:
+            assert "numba" in text or ".compiled import" in text, path.name
 
 
 def test_an_edit_in_a_called_function_is_not_answered_from_the_cache(tmp_path):

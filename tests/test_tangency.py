@@ -12,7 +12,8 @@ from scipy.optimize import fsolve
 from duffing import Duffing, critical_amplitude, melnikov_function
 from duffing.correction import tangency_correction
 from duffing.errors import ConvergenceError, NoSaddleOrbitError
-from duffing.tangency import homoclinic_tangency, splitting
+from duffing.saddle import saddle_frame
+from duffing.tangency import _split, homoclinic_tangency, splitting
 
 PHASES = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 
@@ -77,7 +78,6 @@ def contact(osc, side=1):
         Duffing(alpha=0.1, p=1.5, omega=1.3),
         Duffing(alpha=0.05, p=3.0, omega=1.2, delta=-2.0, gamma=0.5),
         Duffing(alpha=0.1, p=0.75),
-        Duffing(alpha=0.1, p=0.5),
     ],
 )
 def test_tangency_equals_the_contact_of_both_curves_found_by_scipy_alone(osc):
@@ -121,6 +121,15 @@ def test_reversed_forcing_is_half_a_period():
     osc = Duffing(alpha=0.1, p=0.6, mu=0.1)
     opposite = replace(osc, mu=-0.1)
     np.testing.assert_allclose(splitting(osc, PHASES), splitting(opposite, PHASES + np.pi), atol=1e-9)
+
+
+@pytest.mark.parametrize("p", [0.6, 1.0, 2.0])
+def test_slope_of_the_splitting_is_its_difference_quotient(p):
+    frame = saddle_frame(Duffing(alpha=0.2, p=p, mu=0.2, omega=1.4))
+    step = 1e-4
+    ahead, behind = (_split(frame, PHASES[:, None] + shift)[0] for shift in (step, -step))
+    slope = _split(frame, PHASES[:, None])[1]
+    np.testing.assert_allclose(slope, (ahead - behind) / (2 * step), atol=1e-5 * np.abs(slope).max())
 
 
 @pytest.mark.parametrize("p", [0.75, 1.0, 2.0])
