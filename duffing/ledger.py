@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from . import findings_exponents, findings_motion, findings_theory, paper
+from . import findings_exponents, findings_motion, findings_theory, paper, tables
 from .verdicts import VERDICTS, Finding
 
 FINDINGS = {**findings_theory.FINDINGS, **findings_exponents.FINDINGS, **findings_motion.FINDINGS}
@@ -28,14 +28,10 @@ def rows(*keys):
 
 
 def table(*keys):
-    """The rows as a Markdown table to be glued into a page."""
-    from IPython.display import Markdown  # only a notebook calls this; the package runs without one
-
-    lines = ["| Where | The paper says | We find | Verdict |", "| :-- | :-- | :-- | :-- |"]
-    for claim, finding in rows(*keys):
-        cells = (claim.where, claim.says, finding.text, f"**{finding.verdict}**")
-        lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
-    return Markdown("\n".join(lines))
+    """The rows as a Markdown table to be glued into a page; all of them without keys."""
+    head = ("Where", "The paper says", "We find", "Verdict")
+    found = rows(*keys)
+    return tables.table(head, [(c.where, c.says, f.text, f"**{f.verdict}**") for c, f in found])
 
 
 def tally(found):

@@ -19,7 +19,7 @@ ORDER = [
     "flow",
     "poincare", "sweep", "lyapunov", "shooting", "saddle", "manifolds", "tangency", "correction", "sticking",
     "precision", "paper", "reproduction", "small_p",
-    "verdicts", "findings_theory", "findings_exponents", "findings_motion", "ledger",
+    "verdicts", "findings_theory", "findings_exponents", "findings_motion", "tables", "ledger",
     "page_figure", "figures", "figures_beyond",
 ]  # fmt: skip
 
