@@ -14,7 +14,6 @@ from . import paper
 from .flow import integrate, trajectory
 from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from .melnikov import critical_amplitude
-from .poincare import poincare_section
 
 
 def mu_grid(step=0.001, last=0.5):
@@ -71,11 +70,11 @@ class Motion(NamedTuple):
 def motion(mu, osc=paper.OSCILLATOR, end=paper.END, every=5):
     """The motion of Fig. 5 and 6 at the forcing mu, from the paper's start to t = end; every fifth step is kept."""
     osc = replace(osc, mu=mu)
-    step = osc.period / paper.STEPS_PER_PERIOD
-    t = np.arange(0, int(end / step) + 1, every) * step
+    kept = paper.STEPS_PER_PERIOD // every
+    t = np.arange(int(end / osc.period * kept) + 1) * osc.period / kept
     path = trajectory(osc, paper.START, t, method="rk4", steps_per_period=paper.STEPS_PER_PERIOD)
-    points = poincare_section(osc, paper.START, int(end / osc.period), method="rk4")
-    return Motion(t, path, points)
+    # Taken from the path itself: a second run, landing at other times, would round otherwise and part from it in chaos.
+    return Motion(t, path, path[:, kept::kept])
 
 
 def critical_ratio(p, omega, osc=paper.OSCILLATOR):

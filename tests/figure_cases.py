@@ -114,7 +114,7 @@ def _near_exponents(window, regular):
 def _motion(mu):
     motion = reproduction.motion(mu)
     late, points = motion.part(paper.SETTLED, paper.END, paper.OSCILLATOR.period)
-    first = motion.t <= 5 * paper.OSCILLATOR.period
+    first = motion.t < 5.001 * paper.OSCILLATOR.period
     return {
         "t": motion.t[first],
         "path": motion.path[:, first],

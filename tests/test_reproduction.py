@@ -28,12 +28,18 @@ def test_onset_is_the_first_mu_above_the_threshold():
     assert np.isnan(reproduction.onsets((0.1,), step=0.05, last=0.2)[0])
 
 
-def test_motion_keeps_points_on_its_path_and_parts_join():
-    motion = reproduction.motion(0.2, end=70.0)
-    period = 2 * np.pi
-    for k, point in enumerate(motion.points.T[:3], start=1):
+@pytest.mark.parametrize("mu", [0.25, 0.27])
+def test_every_stroboscopic_point_lies_on_the_path_whole_periods_after_the_start(mu):
+    motion, period = reproduction.motion(mu), 2 * np.pi
+    assert motion.points.shape[1] == int(1500 / period)
+    for k, point in enumerate(motion.points.T, start=1):
         near = np.argmin(np.abs(motion.t - k * period))
-        np.testing.assert_allclose(motion.path[:, near], point, atol=1e-9)
+        assert motion.t[near] == pytest.approx(k * period, rel=1e-12)
+        np.testing.assert_array_equal(motion.path[:, near], point)
+
+
+def test_the_parts_of_a_motion_join_without_loss():
+    motion, period = reproduction.motion(0.2, end=70.0), 2 * np.pi
     early, late = motion.part(0.0, 30.0, period), motion.part(30.0, 70.0, period)
     assert early[1].shape[1] + late[1].shape[1] == motion.points.shape[1] == 11
     assert early[0].shape[1] + late[0].shape[1] == motion.t.size
