@@ -26,10 +26,10 @@ def parameter(name, value, allowed="a finite number", lower=None, strict=False):
     if not finite or (lower is not None and not np.all(number > lower if strict else number >= lower)):
         raise ValueError(f"{name} = {value}: must be {allowed}")
     if isinstance(number, np.ndarray) and number.ndim:
-        number = number.copy()
+        number = number + 0.0  # a copy of our own, without negative zeros, which would hash differently
         number.flags.writeable = False
         return number
-    return number if _is_mpmath(value) else float(number)
+    return number if _is_mpmath(value) else float(number) + 0.0
 
 
 def count(name, value, least=1):
@@ -85,7 +85,10 @@ def double_well(osc):
 
 
 def _float_array(name, value, allowed):
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:  # ragged
+        raise ValueError(f"{name} = {value!r}: must be {allowed}") from None
     if array.dtype.kind not in "iuf":
         raise ValueError(f"{name} = {value!r}: must be {allowed}")
     return array.astype(float)

@@ -35,13 +35,13 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
         pair = np.repeat(state[None, :, padded], 2, axis=0)
         for i in range(periods):
             pair[1] = pair[0] + start
-            before = np.sqrt(((pair[1] - pair[0]) ** 2).sum(axis=0))
+            before = np.hypot(*(pair[1] - pair[0]))
             for each in range(2):
                 advance(columns[:, padded], pair[each], h, *forcing, law, (), lanes, ends[each], *nothing)
             check_finite(columns[:, padded], *ends)
             pair = np.ascontiguousarray(ends[:, :, 1])
             apart = pair[1] - pair[0]
-            distance = np.sqrt((apart**2).sum(axis=0))
+            distance = np.hypot(*apart)
             merged = distance == 0
             distance = np.where(merged, np.spacing(np.abs(pair[0]).max(axis=0)), distance)
             growth[i, members] = np.log(distance / before)[: len(members)]

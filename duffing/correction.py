@@ -24,11 +24,14 @@ _NODES = 200_001
 def tangency_correction(osc):
     """mu_t / mu_c - 1 to leading order in alpha for p < 1, (*family); osc.mu is not used.
 
-    To about 1e-4 of it, by the trapezoidal rule. Raises ValueError unless delta < 0 < gamma and p < 1, alpha > 0.
+    To about 1e-4 of it, by the trapezoidal rule. Raises ValueError unless delta < 0 < gamma, 0.05 <= p <= 0.95 and
+    0 < alpha < 1.
     """
     unit = unit_members(osc)
-    if np.any(unit.p >= 1) or np.any(unit.alpha <= 0):
-        raise ValueError(f"p = {osc.p}, alpha = {osc.alpha}: must be < 1 and > 0 for the correction alpha^(1+p)")
+    if np.any(unit.p < 0.05) or np.any(unit.p > 0.95):
+        raise ValueError(f"p = {osc.p}: must be in [0.05, 0.95], where the integral of the correction can be computed")
+    if np.any(unit.alpha <= 0) or np.any(unit.alpha >= 1):
+        raise ValueError(f"alpha = {osc.alpha}: must be in (0, 1), dimensionless, for an expansion in small alpha")
     values = [
         alpha ** (1 + p) * _excess(p, omega, alpha, mu / alpha) / damping
         for alpha, p, omega, mu, damping in np.transpose(

@@ -214,4 +214,4 @@ def _solve(J, order, b):
 def at_rest(q, x, F, Y):
     """Whether force and damping are both below the rounding error of the force: nothing moves that can be computed."""
     noise = 1e-13 * (abs(q[DELTA] * x) + abs(q[GAMMA] * x**3) + q[MU])
-    return abs(F) <= noise and q[ALPHA] * abs(Y) <= noise
+    return q[ALPHA] > 0.0 and abs(F) <= noise and q[ALPHA] * abs(Y) <= noise

@@ -10,7 +10,7 @@ class DuffingError(Exception):
 
 
 class DivergedError(DuffingError):
-    """A solution left every bound (possible for delta > 0 > gamma only) or a step became NaN."""
+    """A solution left every bound (possible for gamma <= 0) or a step became NaN."""
 
 
 class NoSaddleOrbitError(DuffingError):

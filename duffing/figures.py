@@ -60,23 +60,28 @@ def fig1b(v, p, damping):
     return fig
 
 
+def draw_manifolds(axes, loops, stable, unstable):
+    """Homoclinic loops (a list of (x, v)) and over them the curves of W^S and W^U."""
+    for x, v in loops:
+        axes.plot(x, v, color=GREY, linewidth=3.5, alpha=0.5, label="homoclinic orbit, Eq. 8")
+    for curves, colour, dash, label in ((stable, STABLE, "--", "$W^S$"), (unstable, UNSTABLE, "-", "$W^U$")):
+        for x, v in curves:
+            axes.plot(x, v, color=colour, linestyle=dash, linewidth=1.1, label=label)
+
+
 @styled
-def fig2(loops, cases):
-    """Homoclinic loops (a list of (x, v)) under the manifolds of each case: (title, stable curves, unstable curves)."""
-    fig = PageFigure(figsize=(6.8, 3.9))
-    for number, (axes, (title, stable, unstable)) in enumerate(
-        zip(fig.subplots(1, len(cases), sharey=True), cases, strict=True)
-    ):
-        for x, v in loops:
-            axes.plot(x, v, color=GREY, linewidth=3.5, alpha=0.5, label="homoclinic orbit, Eq. 8")
-        for curves, colour, dash, label in ((stable, STABLE, "--", "$W^S$"), (unstable, UNSTABLE, "-", "$W^U$")):
-            for x, v in curves:
-                axes.plot(x, v, color=colour, linestyle=dash, linewidth=1.1, label=label)
-        axes.set(title=title, xlabel="displacement $x$ (dimensionless)", xlim=(-1.75, 1.75), ylim=(-1.05, 1.05))
-        if number == 0:
-            axes.set_ylabel("velocity $v$ (dimensionless)")
-            labels = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-            fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)
+def fig2(loops, cases, xlim=(-1.75, 1.75), ylim=(-1.05, 1.05)):
+    """Homoclinic loops under the manifolds of each case, a panel each: (title, stable curves, unstable curves)."""
+    fig = PageFigure(figsize=(3.4 + 1.3 * len(cases) + 0.8, 3.9))
+    panels = fig.subplots(1, len(cases), sharey=True)
+    for axes, (title, stable, unstable) in zip(panels, cases, strict=True):
+        draw_manifolds(axes, loops, stable, unstable)
+        axes.set(xlabel="displacement $x$ (dimensionless)", xlim=xlim, ylim=ylim)
+        axes.xaxis.label.set_size(9.5)
+        axes.set_title(title, fontsize=10)
+    panels[0].set_ylabel("velocity $v$ (dimensionless)")
+    labels = dict(zip(*reversed(panels[0].get_legend_handles_labels()), strict=True))
+    fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)
     return fig
 
 
@@ -116,7 +121,7 @@ def fig4(mu, exponent, p, threshold):
 
 
 @styled
-def fig5(transient, steady, transient_points, steady_points):
+def fig5(transient, steady, transient_points, steady_points, settled=1200.0):
     """Phase portrait: paths (x, v) as lines, stroboscopic points as dots, before and after the settling time.
 
     transient and transient_points may be None (Fig. 5a shows the late motion alone).
@@ -127,7 +132,7 @@ def fig5(transient, steady, transient_points, steady_points):
         if path is None:
             continue
         width = 0.5 if layer == 0 else 0.9
-        axes.plot(*path, color=colour, linewidth=width, zorder=2 + 2 * layer, label=f"path {when} $t = 1200$")
+        axes.plot(*path, color=colour, linewidth=width, zorder=2 + 2 * layer, label=f"path {when} $t = {settled:g}$")
         axes.plot(*points, "o", color=BLACK if layer else BLUE, markersize=3.2, zorder=3 + 2 * layer,
                   label=f"stroboscopic points {when}")  # fmt: skip
     fig.legend(loc="outside upper center", ncols=2)

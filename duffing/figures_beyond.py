@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .figures import BLACK, BLUE, GREEN, GREY, ORANGE, P_COLOUR, PURPLE, VERMILION, line_of, panel
+from .figures import BLACK, BLUE, GREEN, GREY, ORANGE, P_COLOUR, PURPLE, VERMILION, fig3b, line_of, panel
 from .page_figure import PageFigure, styled
 
 METHODS = {  # the integrators' colours, markers and dashes in the work-precision figure
@@ -23,7 +23,7 @@ def scan_map(alpha, omega, criteria, chosen):
         i, j = np.nonzero(agrees)
         axes.plot(omega[j], alpha[i], "s", color=BLUE, markersize=4)
         axes.plot(*chosen[::-1], "o", color=VERMILION, fillstyle="none", markersize=12, markeredgewidth=1.8)
-        axes.set_title(f"{name}: {agrees.sum()} of {agrees.size}", fontsize=10)
+        axes.set_title(f"{name}\n{agrees.sum()} of {agrees.size}", fontsize=9.5)
         axes.set(xlim=(omega[0] - 0.05, omega[-1] + 0.05), ylim=(alpha[0] - 0.02, alpha[-1] + 0.02))
     for axes in panels.flat[len(criteria) :]:
         axes.set_axis_off()
@@ -35,14 +35,11 @@ def scan_map(alpha, omega, criteria, chosen):
 @styled
 def headline(p, mu_c, p_tangency, tangency, p_onset, onset):
     """Fig. 3b with the computed homoclinic tangencies on the line."""
-    fig, axes = panel("damping exponent $p$", r"forcing amplitude $\mu$ (dimensionless)")
-    axes.plot(p, mu_c, color=BLACK, label=r"critical amplitude $\mu_c$, Eq. 13")
+    fig = fig3b(p, mu_c, p_onset, onset)
+    axes = fig.axes[0]
     axes.plot(
         p_tangency, tangency, "x", color=BLUE, markersize=7, markeredgewidth=2, label="homoclinic tangency, computed"
     )
-    found = np.isfinite(onset)
-    axes.plot(p_onset[found], onset[found], "o", color=VERMILION, fillstyle="none", label=r"onset of $\lambda_1 > 0.1$")
-    axes.set(xlim=(0, p[-1]), ylim=(0, None))
     axes.legend()
     return fig
 
@@ -101,9 +98,11 @@ def dry_limit(p, exponents, mu):
     """lambda_1 against p (logarithmic) for several forcings: exponents (len(p), len(mu))."""
     fig, axes = panel("damping exponent $p$", r"$\lambda_1$ (per unit time)")
     axes.axhline(0, color=GREY, linewidth=0.8)
-    looks = zip((BLUE, GREEN, VERMILION, ORANGE), ("o", "s", "D", "^"), strict=True)
+    looks = zip((BLACK, GREY, GREEN, PURPLE), ("o", "s", "D", "^"), strict=True)
     for value, column, (colour, marker) in zip(mu, exponents.T, looks, strict=False):
         axes.semilogx(p, column, marker=marker, color=colour, label=rf"$\mu = {value:g}$")
+    axes.set_xticks(p, [f"{value:g}" for value in p])
+    axes.minorticks_off()
     axes.legend()
     return fig
 
@@ -121,24 +120,6 @@ def collapse(phase, curves, theory):
         axes.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\alpha = {alpha:g}$")
     axes.set_xlim(phase[0], phase[-1])
     axes.legend()
-    return fig
-
-
-@styled
-def manifold_panels(loops, cases):
-    """Close view of one loop's manifolds in several cases: (title, stable curves, unstable curves), as for fig2."""
-    fig = PageFigure(figsize=(7.4, 3.9))
-    for axes, (title, stable, unstable) in zip(fig.subplots(1, len(cases), sharey=True), cases, strict=True):
-        for x, v in loops:
-            axes.plot(x, v, color=GREY, linewidth=3.0, alpha=0.5, label="homoclinic orbit, Eq. 8")
-        for curves, colour, dash, label in ((stable, BLUE, "--", "$W^S$"), (unstable, VERMILION, "-", "$W^U$")):
-            for x, v in curves:
-                axes.plot(x, v, color=colour, linestyle=dash, linewidth=1.1, label=label)
-        axes.set(xlabel="displacement $x$", xlim=(-0.25, 1.6), ylim=(-0.95, 0.95))
-        axes.set_title(title, fontsize=9.5)
-    fig.axes[0].set_ylabel("velocity $v$ (dimensionless)")
-    handles, labels = fig.axes[0].get_legend_handles_labels()
-    fig.legend(handles, labels, loc="outside upper center", ncols=3)
     return fig
 
 
@@ -180,7 +161,7 @@ def frontier(p, alpha, ratio, marked):
     filled = axes.contourf(p, alpha, ratio, levels=levels, cmap="cividis", extend="max")
     lines = axes.contour(p, alpha, ratio, levels=levels[1:-1:2], colors="white", linewidths=0.8)
     axes.clabel(lines, fontsize=9)
-    axes.plot(*marked, "x", color="white", markersize=9, markeredgewidth=2.2)
+    axes.plot(*marked, "o", color="white", markeredgecolor=BLACK, markersize=9)
     axes.set_yscale("log")
     axes.grid(False)
     fig.colorbar(filled, label=r"sticking amplitude$\,/\,\mu_c$")

@@ -5,6 +5,8 @@ import numpy as np
 from . import checks, friction, rk4
 
 METHODS = ("auto", "rk4", "friction")
+RK4_OPTIONS = ("steps_per_period", "threads")
+FRICTION_OPTIONS = ("rtol", "atol", "max_steps", "switch", "threads")
 
 
 def integrate(osc, state, t, tangents=0, method="auto", **options):
@@ -14,13 +16,15 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
     state : (2,) for all members or (2, *family)
     t : (n,) times for all members or (n, N), one column a member
     method : "rk4", the paper's algorithm (option steps_per_period=500); "friction", the adaptive integrator of order
-        eight, in friction time where p < 1 and in physical time where p >= 1 (options rtol, atol); "auto" is "friction"
+        eight, in friction time unless the damping is smooth in v (p = 1, 3, 5 ...); "auto" is "friction"
     options : passed on to the integrator
 
     Returns an `Orbit`. Raises ValueError for invalid input, DivergedError or ConvergenceError where there is no answer.
     """
     checks.choice("method", method, METHODS)
-    integrator = rk4 if method == "rk4" else friction
+    integrator, allowed = (rk4, RK4_OPTIONS) if method == "rk4" else (friction, FRICTION_OPTIONS)
+    for name in options:
+        checks.choice(f"an option of method {method!r}", name, allowed)
     return integrator.integrate(osc, state, t, tangents=tangents, **options)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import checks
 from .compiled import compiled
+from .errors import DivergedError
 from .flight import in_parallel, members, raise_failures, start, tolerances, workspace
 from .follow import DONE, EVALUATIONS, LOG1, LOG2, MOVE, PASSAGES, SHEAR, follow
 from .friction_time import ETA1, START, XI1, S, T, W, X, parameters, velocity
@@ -106,6 +107,8 @@ def _propagators(frames, angles):
     def rotation(a):
         return np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
 
+    if np.any(frames[LOG1] > 700):
+        raise DivergedError("the tangent map of an interval overflows: ask for the solution at more times")
     r11, r22 = np.exp(frames[LOG1]), np.exp(frames[LOG2])
     upper = np.array([[r11, r11 * frames[SHEAR]], [np.zeros_like(r11), r22]])
     return np.einsum("ij...,jk...,lk...->il...", rotation(angles[1:]), upper, rotation(angles[:-1]))

@@ -24,11 +24,12 @@ def homoclinic_orbit(osc, t, side=1):
     """
     checks.double_well(osc)
     checks.choice("side", side, (1, -1))
+    t = checks.parameter("t", t)
     lib = library(osc.delta, osc.gamma, t)
     u = lib.sqrt(-osc.delta) * t
     x = side * lib.sqrt(-2 * osc.delta / osc.gamma) * lib.sech(u)
     v = side * lib.sqrt(2 / osc.gamma) * osc.delta * lib.tanh(u) * lib.sech(u)
-    return x, v
+    return _over_family(osc, x, t), _over_family(osc, v, t)
 
 
 def damping_integral(osc):
@@ -59,13 +60,15 @@ def melnikov_function(osc, t0, side=1):
     The distance of the perturbed manifolds is M(t0) / |grad H0| to first order.
     """
     checks.choice("side", side, (1, -1))
+    t0 = checks.parameter("t0", t0)
     lib = library(osc.omega, t0)
-    return side * osc.mu * forcing_integral(osc) * lib.sin(osc.omega * t0) - osc.alpha * damping_integral(osc)
+    value = side * osc.mu * forcing_integral(osc) * lib.sin(osc.omega * t0) - osc.alpha * damping_integral(osc)
+    return _over_family(osc, value, t0)
 
 
 def critical_amplitude(osc):
     """mu_c of Eq. 13: the forcing amplitude at which the Melnikov function first has a zero; osc.mu is not used."""
-    return osc.alpha * damping_integral(osc) / forcing_integral(osc)
+    return _over_family(osc, osc.alpha * damping_integral(osc) / forcing_integral(osc))
 
 
 def least_critical_frequency(osc):
@@ -97,3 +100,9 @@ def melnikov_quadrature(osc, t0, digits=50):
             return v * (exact.mu * mpmath.cos(exact.omega * (t + t0)) - exact.damping(v))
 
         return mpmath.quad(power, [-end, 0, end])
+
+
+def _over_family(osc, value, t=0.0):
+    # A field that a formula does not use still belongs to the family, whose shape is promised.
+    shape = np.broadcast_shapes(osc.shape, np.shape(t))
+    return np.array(np.broadcast_to(value, shape)) if shape else value

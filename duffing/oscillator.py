@@ -47,11 +47,13 @@ class Duffing:
         # One mpmath or sympy field makes all of them so: no formula then meets a rounded float.
         for name, value in zip(vars(self), promoted(*self._values()), strict=True):
             object.__setattr__(self, name, value)
+        shapes = {f.name: np.shape(getattr(self, f.name)) for f in fields(self)}
         try:
-            self.shape  # noqa: B018 - asked for its error alone
+            family = self.shape
         except ValueError:
-            shapes = {f.name: np.shape(getattr(self, f.name)) for f in fields(self)}
             raise ValueError(f"the fields' shapes {shapes} must broadcast to one family") from None
+        if 0 in family:
+            raise ValueError(f"the fields' shapes {shapes} make an empty family: at least one member is needed")
 
     def __eq__(self, other):
         if not isinstance(other, Duffing):

@@ -37,6 +37,11 @@ CLAIMS = (
     Claim("eq-8", "Eq. 8", "The homoclinic orbits x* and v*."),
     Claim("eq-8-sides", "below Eq. 8", "“'+' and '−' signs are related to left- and right-side orbits, respectively”."),
     Claim("eq-8-limits", "below Eq. 8", "The saddle point is reached for t → ±∞."),
+    Claim(
+        "fig-2",
+        "Fig. 2",
+        "Perturbed, the homoclinic orbit splits into $W^S$ and $W^U$, which cross for strong enough forcing.",
+    ),
     Claim("eq-9", "Eq. 9", "The distance between $W^S$ and $W^U$ “is given by the Melnikov function”."),
     Claim("eq-10-11", "Eq. 10, 11", "h is the gradient of the Hamiltonian, g the perturbation, both as forms."),
     Claim("eq-12", "Eq. 12", "A simple zero of M(t₀) is the condition for a global homoclinic transition."),

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from . import friction, rk4
+from . import checks, friction, rk4
 
 
 class WorkPrecision(NamedTuple):
@@ -20,8 +20,10 @@ def reference_state(osc, state, end, rtol=1e-13, m=15.0):
 
     The variable is w with v = sign(w) |w|^m and the pace dt/ds = m |w|^(m-1), for any m with m p > 1 and whatever p:
     smooth enough for the method at every crossing of v = 0. The last stretch, away from v = 0, runs in physical time.
-    For one oscillator with p <= 1. Raises ValueError when the solution ends within a thousandth of v = 0.
+    For one oscillator with p <= 1. Raises ValueError unless end > 0 and v is not within a thousandth of 0 there.
     """
+
+    end = checks.positive("end", end)
 
     def slope(sigma, y):
         x, w, t = y

@@ -5,7 +5,6 @@ chapters and the ledger look at the same curves.
 """
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +13,7 @@ from . import paper
 from .flow import integrate, trajectory
 from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from .melnikov import critical_amplitude
+from .remember import remembered
 
 
 def mu_grid(step=0.001, last=0.5):
@@ -21,7 +21,7 @@ def mu_grid(step=0.001, last=0.5):
     return np.round(np.arange(round(last / step) + 1) * step, 6)
 
 
-@lru_cache
+@remembered
 def exponent_curve(p, step=0.001, last=0.5, osc=paper.OSCILLATOR, d0=None, steps_per_period=paper.STEPS_PER_PERIOD):
     """lambda_1 versus mu as in Fig. 4: (mu, lambda_1), each (n,); the start anew for every mu, no transient cut.
 
@@ -37,15 +37,13 @@ def exponent_curve(p, step=0.001, last=0.5, osc=paper.OSCILLATOR, d0=None, steps
     return mu, spectrum.exponents[0]
 
 
-@lru_cache
-def onsets(p, step=0.001, first=0.1, last=0.35, osc=paper.OSCILLATOR):
+@remembered
+def onsets(p, step=0.001, last=0.35, osc=paper.OSCILLATOR):
     """The least mu of the grid with lambda_1 above the paper's threshold, for each p of the tuple: (len(p),).
 
-    The search begins at `first`, above the false positive exponents that the paper's step makes near mu = 0 at small p.
     nan where no mu of the grid reaches the threshold: "not found" is an answer, and the figure leaves it out.
     """
-    mu = mu_grid(step, last)
-    mu = mu[mu >= first]
+    mu = mu_grid(step, last)[1:]  # mu = 0 has no forcing
     family = replace(osc, p=np.array(p)[:, None], mu=mu)
     exponents = lyapunov_spectrum(family, paper.START, paper.PERIODS, 0, k=1, method="rk4").exponents[0]
     chaotic = exponents > paper.THRESHOLD
@@ -66,7 +64,7 @@ class Motion(NamedTuple):
         return self.path[:, inside], self.points[:, struck]
 
 
-@lru_cache
+@remembered
 def motion(mu, osc=paper.OSCILLATOR, end=paper.END, every=5):
     """The motion of Fig. 5 and 6 at the forcing mu, from the paper's start to t = end; every fifth step is kept."""
     osc = replace(osc, mu=mu)
@@ -96,7 +94,7 @@ class Scan(NamedTuple):
     wells: np.ndarray
 
 
-@lru_cache
+@remembered
 def parameter_scan(p=paper.P_SMALL, alphas=(0.04, 0.40, 0.02), omegas=(0.5, 1.8, 0.1), osc=paper.OSCILLATOR):
     """What the text tells of Fig. 4a to 6, computed for each candidate (alpha, omega): first, last, step of each."""
     alpha, omega = (np.round(np.arange(a, b + c / 2, c), 6) for a, b, c in (alphas, omegas))
@@ -114,7 +112,7 @@ def parameter_scan(p=paper.P_SMALL, alphas=(0.04, 0.40, 0.02), omegas=(0.5, 1.8,
 def survivors(scan):
     """Which (alpha, omega) agree with the text on each count: dict of boolean arrays (a, w), the last one all together.
 
-    The quoted exponent is to be met within 0.03, about twice the statistical error of an average over the paper's time.
+    The quoted exponent is to be met within 0.03, about three times the scatter of a run of the paper's length.
     """
     chaotic = scan.exponents > paper.THRESHOLD
     regular = scan.exponents[..., np.argmin(np.abs(scan.mu - paper.MU_REGULAR))]

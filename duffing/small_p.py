@@ -1,14 +1,15 @@
 """What small p does to exponents, in friction time: the true curve, many starts, smaller steps, dry friction."""
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from . import paper, reproduction
+from .errors import ConvergenceError
 from .flow import integrate
 from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
+from .remember import remembered
 
 TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}  # for curves: an exponent's statistical error is larger by many orders
 
@@ -19,7 +20,7 @@ def starts(columns=8, rows=4):
     return np.stack([x.ravel(), v.ravel()])
 
 
-@lru_cache
+@remembered
 def exact_curve(p=paper.P_SMALL, step=0.002, last=0.4, osc=paper.OSCILLATOR):
     """lambda_1 versus mu in friction time from the paper's start, after forty periods: (mu, lambda_1), each (n,)."""
     mu = reproduction.mu_grid(step, last)
@@ -27,7 +28,7 @@ def exact_curve(p=paper.P_SMALL, step=0.002, last=0.4, osc=paper.OSCILLATOR):
     return mu, spectrum.exponents[0]
 
 
-@lru_cache
+@remembered
 def window(columns=8, rows=4, step=0.001, first=0.255, last=0.285, periods=199, osc=paper.OSCILLATOR):
     """lambda_1 over the window of chaos from many starts: (mu (n,), exponents (starts, n))."""
     mu = first + step * np.arange(round((last - first) / step) + 1)
@@ -47,18 +48,22 @@ class Chaos(NamedTuple):
     runs: int
 
 
-@lru_cache
+@remembered
 def chaos(mu=paper.MU_CHAOTIC, columns=8, rows=4, osc=paper.OSCILLATOR):
     """lambda_1 on the chaotic attractor, from the runs of `starts` whose exponent is positive over the paper's time."""
     state = starts(columns, rows)
     family = replace(osc, mu=np.full(state.shape[1], mu))
     exponents = lyapunov_spectrum(family, state, paper.PERIODS - 40, 40, k=1, **TOLERANCE).exponents[0]
     inside = exponents[exponents > 0]
+    if inside.size < 2:
+        raise ConvergenceError(
+            f"mu = {mu}: {inside.size} of {exponents.size} runs are chaotic, two are needed for a scatter"
+        )
     spread = inside.std(ddof=1)
     return Chaos(float(inside.mean()), float(spread / np.sqrt(inside.size)), float(spread), int(inside.size))
 
 
-@lru_cache
+@remembered
 def step_study(mu, factors=(1, 10, 50), distances=(1e-4, 1e-8), osc=paper.OSCILLATOR):
     """lambda_1 by the paper's algorithm with steps 1, 10, 50 times smaller, by tangent and by two trajectories.
 
@@ -86,19 +91,22 @@ class PeriodicOrbit(NamedTuple):
     gap: np.ndarray
 
 
-@lru_cache
+@remembered
 def periodic_orbit(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
     """The orbits that attract the paper's start at the forcings mu (a tuple), and their Floquet exponents."""
     family = replace(osc, p=p, mu=np.array(mu))
     t = family.period * np.array([0.0, settle, settle + 1.0])
     orbit = integrate(family, paper.START, t, tangents=2)
     multipliers = np.linalg.eigvals(np.moveaxis(orbit.propagators[:, :, -1], -1, 0))
-    exponents = -np.sort(-np.log(np.abs(multipliers)), axis=1).T / family.period
+    total = -family.alpha * orbit.friction_time[-1]  # of both logarithms, by Liouville's theorem
+    # The smaller one by that sum: where friction time is long it is lost in the first one's rounding.
+    largest = np.maximum(np.log(np.max(np.abs(multipliers), axis=1)), total / 2)
+    exponents = np.array([largest, total - largest]) / family.period
     gap = np.max(np.abs(orbit.states[:, 2] - orbit.states[:, 1]), axis=0)
     return PeriodicOrbit(orbit.states[:, 2], exponents, orbit.friction_time[-1], gap)
 
 
-@lru_cache
+@remembered
 def dry_limit(p, mu, osc=paper.OSCILLATOR):
     """lambda_1 as p goes to zero, from the paper's start: (len(p), len(mu)); half the range of x in the last period."""
     family = replace(osc, p=np.array(p)[:, None], mu=np.array(mu))

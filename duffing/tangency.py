@@ -9,7 +9,7 @@ beyond the bottom of the well only, so that no turning point of the slow departu
 import numpy as np
 
 from . import checks
-from .errors import ConvergenceError
+from .errors import ConvergenceError, NoSaddleOrbitError
 from .manifolds import DISTANCE, STABLE, UNSTABLE, launch
 from .melnikov import critical_amplitude, forcing_integral
 from .oscillator import Duffing
@@ -160,3 +160,18 @@ def _forced(unit, mu):
     columns = unit.columns()
     columns[2] = mu
     return Duffing(*columns)
+
+
+def with_tangency(p, **parameters):
+    """Those exponents of the sequence p for which `homoclinic_tangency` has an answer.
+
+    parameters : the other fields of Duffing. Returns a list.
+    """
+    found = []
+    for exponent in p:
+        try:
+            homoclinic_tangency(Duffing(p=exponent, **parameters))
+        except (ConvergenceError, NoSaddleOrbitError):
+            continue
+        found.append(exponent)
+    return found

@@ -18,7 +18,7 @@ ORDER = [
     "friction_time", "dop853", "creep", "follow", "flight", "friction", "turning",
     "flow",
     "poincare", "sweep", "lyapunov", "shooting", "saddle", "manifolds", "tangency", "correction", "sticking",
-    "precision", "paper", "reproduction", "small_p",
+    "precision", "paper", "remember", "reproduction", "small_p",
     "verdicts", "findings_theory", "findings_exponents", "findings_motion", "tables", "ledger",
     "page_figure", "figures", "figures_beyond",
 ]  # fmt: skip

@@ -21,8 +21,8 @@ CHAPTERS = [TOC["root"], *(chapter["file"] for part in TOC["parts"] for chapter 
 CITATION = re.compile(r"`tests/(test_\w+\.py)::(test_\w+)`")
 sys.path.append(str(BOOK / "extensions"))
 
-import cache_key  # noqa: E402
-import offline_mathjax  # noqa: E402
+import cache_key  # noqa: E402 - its folder is put on the path above
+import offline_mathjax  # noqa: E402 - as above
 import paper_numbers  # noqa: E402
 
 each_chapter = pytest.mark.parametrize("chapter", CHAPTERS)

@@ -92,5 +92,5 @@ def test_an_unknown_method_is_named_with_the_known_ones():
 
 
 def test_an_option_of_another_integrator_is_refused_not_ignored():
-    with pytest.raises(TypeError, match="rtol"):
+    with pytest.raises(ValueError, match=r"option of method 'rk4' = 'rtol': must be one of 'steps_per_period'"):
         trajectory(Duffing(), (0.1, 0.2), [0.0, 1.0], method="rk4", rtol=1e-9)

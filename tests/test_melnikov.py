@@ -240,3 +240,19 @@ def test_bad_arguments_of_the_formulas_are_named():
         melnikov_quadrature(Duffing(mu=[0.1, 0.2]), 0.0)
     with pytest.raises(ValueError, match=r"^digits = 0"):
         melnikov_quadrature(Duffing(), 0.0, digits=0)
+
+
+def test_formulas_return_the_familys_shape_even_for_fields_they_do_not_use():
+    family = Duffing(mu=np.zeros((2, 3)))
+    assert critical_amplitude(family).shape == (2, 3)
+    assert homoclinic_orbit(family, 0.5)[0].shape == (2, 3)
+    assert melnikov_function(family, [[[0.1]], [[0.2]]]).shape == (2, 2, 3)
+    assert np.shape(critical_amplitude(Duffing())) == ()
+
+
+def test_times_that_are_not_finite_numbers_are_named():
+    for bad in (np.nan, np.inf, "a", None, 1j):
+        with pytest.raises(ValueError, match=r"^t = "):
+            homoclinic_orbit(Duffing(), bad)
+        with pytest.raises(ValueError, match=r"^t0 = "):
+            melnikov_function(Duffing(), bad)

@@ -134,3 +134,15 @@ def test_fields_that_do_not_broadcast_are_refused_with_their_shapes():
 def test_the_dimensionless_form_needs_a_double_well(delta, gamma, name):
     with pytest.raises(ValueError, match=f"^{name} = .*double well"):
         Duffing(delta=delta, gamma=gamma).dimensionless()
+
+
+def test_an_empty_family_and_a_ragged_field_are_refused():
+    with pytest.raises(ValueError, match="empty family"):
+        Duffing(mu=[])
+    with pytest.raises(ValueError, match=r"^alpha = "):
+        Duffing(alpha=[[1, 2], [3]])
+
+
+def test_zero_and_negative_zero_are_one_oscillator():
+    assert hash(Duffing(mu=[0.0])) == hash(Duffing(mu=[-0.0]))
+    assert hash(Duffing(mu=0.0)) == hash(Duffing(mu=-0.0))

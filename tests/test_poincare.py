@@ -20,12 +20,13 @@ def test_transient_points_are_left_out():
     np.testing.assert_allclose(poincare_section(osc, (0.45, 0.1), 3, transient=4), whole[:, 4:], atol=1e-8)
 
 
+@pytest.mark.parametrize("phase", [0.3, 1.0])
 @pytest.mark.parametrize("method", ["auto", "rk4"])
-def test_the_phase_is_that_of_the_force(method):
+def test_the_phase_is_that_of_the_force(method, phase):
     osc = Duffing(mu=0.3, omega=np.array([0.8, 1.3]))
-    points = poincare_section(osc, (0.45, 0.1), 2, phase=1.0, method=method)
+    points = poincare_section(osc, (0.45, 0.1), 2, phase=phase, method=method)
     for member, omega in enumerate((0.8, 1.3)):
-        t = np.array([0.0, 1.0 + 2 * np.pi, 1.0 + 4 * np.pi]) / omega
+        t = np.array([0.0, phase + 2 * np.pi, phase + 4 * np.pi]) / omega
         path = trajectory(Duffing(mu=0.3, omega=omega), (0.45, 0.1), t, method=method)
         np.testing.assert_allclose(points[:, :, member], path[:, 1:], atol=1e-7)
 
