@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from duffing import lyapunov_spectrum, paper, reproduction
+from duffing.flow import integrate
 
 
 def test_the_grid_of_mu_holds_the_papers_values_exactly():
@@ -62,3 +63,22 @@ def test_only_the_recovered_pair_has_its_onset_at_the_papers_place():
         onset[scan.alpha[i], scan.omega[j]] = reproduction.onsets((0.1,), osc=osc)[0]
     inside = [pair for pair, value in onset.items() if abs(value - 0.27) < 0.005]
     assert inside == [(pytest.approx(0.1), pytest.approx(1.0))]
+
+
+def test_amplitude_and_wells_of_the_scan_are_those_of_each_late_motion():
+    scan = reproduction.parameter_scan()
+    omega, alpha = np.meshgrid(scan.omega, scan.alpha)
+    osc = paper.Duffing(alpha=alpha, p=0.1, omega=omega, mu=0.25)
+    t = np.append(0.0, 229 + np.arange(101) / 10)[:, None] * 2 * np.pi / omega.ravel()
+    x = integrate(osc, (0.45, 0.1), t, method="rk4").states[0, 1:].reshape(-1, *omega.shape)
+    both = (x.max(axis=0) > 0) & (x.min(axis=0) < 0)
+    np.testing.assert_array_equal(scan.wells, np.where(both, 2, 1))
+    np.testing.assert_allclose(scan.amplitude, (x.max(axis=0) - x.min(axis=0)) / 2)
+
+
+def test_the_papers_numbers_are_those_of_its_text():
+    assert paper.START == (0.45, 0.1) and paper.STEPS_PER_PERIOD == 500 and paper.THRESHOLD == 0.1
+    assert (paper.SETTLED, paper.END) == (1200, 1500)
+    assert (paper.LAMBDA_CHAOTIC, paper.LAMBDA_REGULAR) == (0.175, -0.023)
+    assert (paper.MU_CHAOTIC, paper.MU_REGULAR, paper.P_SMALL, paper.P_LINEAR) == (0.27, 0.25, 0.1, 1.0)
+    assert paper.PERIODS == round(paper.OSCILLATOR.omega * paper.END / (2 * np.pi))
