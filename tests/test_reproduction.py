@@ -81,4 +81,4 @@ def test_the_papers_numbers_are_those_of_its_text():
     assert (paper.SETTLED, paper.END) == (1200, 1500)
     assert (paper.LAMBDA_CHAOTIC, paper.LAMBDA_REGULAR) == (0.175, -0.023)
     assert (paper.MU_CHAOTIC, paper.MU_REGULAR, paper.P_SMALL, paper.P_LINEAR) == (0.27, 0.25, 0.1, 1.0)
-    assert paper.PERIODS == round(paper.OSCILLATOR.omega * paper.END / (2 * np.pi))
+    assert round(paper.OSCILLATOR.omega * paper.END / (2 * np.pi)) == paper.PERIODS
