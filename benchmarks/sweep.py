@@ -106,7 +106,7 @@ def scipy(method):
                 y = solve_ivp(
                     lambda t, y, m=member: _field(m, t, y),
                     (0, periods * osc.period), (*START, 1.0, 0.0), method, rtol=1e-8, atol=1e-8,
-                )  # fmt: skip
+                )  # the columns stay together  # fmt: skip
             if not y.success:
                 return None
             ends.append((*y.y[:2, -1], math.log(math.hypot(*y.y[2:, -1]))))

@@ -10,7 +10,7 @@ from .page_figure import PageFigure, styled
 
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE, GREY = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#767676",
-)  # fmt: skip
+)  # names and values side by side  # fmt: skip
 P_COLOUR = {0.1: VERMILION, 0.3: PURPLE, 0.5: ORANGE, 0.75: "#882255", 1.0: BLUE, 1.5: SKY, 2.0: GREEN, 3.0: BLACK}
 P_DASH = {
     0.1: "-",
@@ -134,7 +134,7 @@ def fig5(transient, steady, transient_points, steady_points, settled=1200.0):
         width = 0.5 if layer == 0 else 0.9
         axes.plot(*path, color=colour, linewidth=width, zorder=2 + 2 * layer, label=f"path {when} $t = {settled:g}$")
         axes.plot(*points, "o", color=BLACK if layer else BLUE, markersize=3.2, zorder=3 + 2 * layer,
-                  label=f"stroboscopic points {when}")  # fmt: skip
+                  label=f"stroboscopic points {when}")  # one call, two lines  # fmt: skip
     fig.legend(loc="outside upper center", ncols=2)
     return fig
 

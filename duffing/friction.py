@@ -65,7 +65,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
             q[part], t[part], tangents, control,
             states[part], frames[part], angles[part], friction_time[part], annihilations[part],
             evaluations[part], status[part],
-        )  # fmt: skip
+        )  # inputs and outputs, a line each  # fmt: skip
 
     in_parallel(run, size, threads)
     raise_failures(status, columns)

@@ -28,7 +28,7 @@ class TurningPoint(NamedTuple):
 def to_turning_point(
     osc, state, t0, direction=1, beyond=-math.inf, within=None, derivatives=False, rtol=1e-11, atol=1e-13,
     max_steps=100_000, threads=None,
-):  # fmt: skip
+):  # three lines for eleven arguments  # fmt: skip
     """First crossing of v = 0 with x > beyond after (direction = 1) or before (-1) the start, landed on exactly.
 
     Parameters
@@ -67,7 +67,7 @@ def to_turning_point(
         _turning_points(
             q[part], state[:, part], direction, float(beyond), longest[part], 2 * bool(derivatives), control,
             found[:, part], derivative[:, :, part], status[part],
-        )  # fmt: skip
+        )  # inputs and outputs, a line each  # fmt: skip
 
     in_parallel(run, size, threads)
     raise_failures(status, columns)

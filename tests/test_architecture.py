@@ -21,7 +21,7 @@ ORDER = [
     "precision", "paper", "remember", "reproduction", "small_p",
     "verdicts", "findings_theory", "findings_exponents", "findings_motion", "tables", "ledger",
     "page_figure", "figures", "figures_beyond",
-]  # fmt: skip
+]  # a row for each layer  # fmt: skip
 
 
 def imports(path):

@@ -23,7 +23,7 @@ sys.path.append(str(BOOK / "extensions"))
 
 import cache_key  # noqa: E402 - its folder is put on the path above
 import offline_mathjax  # noqa: E402 - as above
-import paper_numbers  # noqa: E402
+import paper_numbers  # noqa: E402 - as above
 
 each_chapter = pytest.mark.parametrize("chapter", CHAPTERS)
 
