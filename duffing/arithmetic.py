@@ -4,12 +4,14 @@ sympy to prove, mpmath to check fifty digits, numpy to draw: `library` looks at 
 the functions that fit them.
 """
 
+from functools import wraps
 from types import SimpleNamespace
 
 import numpy as np
 import scipy.special
 
 from .checks import _is_mpmath, _is_sympy
+from .errors import DivergedError
 
 
 def _sech(x):
@@ -57,3 +59,23 @@ def promoted(*values):
     if lib.__name__ == "mpmath":
         return tuple(lib.mpf(value) for value in values)
     return tuple(lib.Rational(repr(value)) if isinstance(value, float) else lib.sympify(value) for value in values)
+
+
+def within_range(formula):
+    """The formula, but where doubles cannot hold its value it raises DivergedError instead of answering inf or nan."""
+
+    @wraps(formula)
+    def evaluate(*args, **kwargs):
+        with np.errstate(all="ignore"):
+            try:
+                value = formula(*args, **kwargs)
+            except (OverflowError, ZeroDivisionError):  # from Python's own floats
+                value = np.inf
+        parts = value if isinstance(value, tuple) else (value,)
+        if library(*parts) is NUMPY and not all(np.all(np.isfinite(part)) for part in parts):
+            raise DivergedError(
+                f"{formula.__name__}: the value leaves the range of double precision; mpmath numbers as fields keep it"
+            )
+        return value
+
+    return evaluate

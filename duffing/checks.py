@@ -2,8 +2,11 @@
 
 import math
 import sys
+from collections.abc import Hashable
 
 import numpy as np
+
+MOST = 2**53  # counts beyond it are not told apart by a double
 
 
 def parameter(name, value, allowed="a finite number", lower=None, strict=False):
@@ -32,21 +35,36 @@ def parameter(name, value, allowed="a finite number", lower=None, strict=False):
     return number if _is_mpmath(value) else float(number) + 0.0
 
 
+def model(osc):
+    """An oscillator: anything else is refused by name before somebody asks it for its shape."""
+    if not hasattr(osc, "columns"):
+        raise ValueError(f"osc = {osc!r}: must be a Duffing oscillator")
+    return osc
+
+
+def number(name, value, allowed="a finite number", lower=None, strict=False):
+    """One finite number, as `parameter` but no array: a float, an mpmath or a sympy number."""
+    value = parameter(name, value, allowed, lower, strict)
+    if isinstance(value, np.ndarray):
+        raise ValueError(f"{name} = {value}: must be {allowed}, one for all members")
+    return value
+
+
 def count(name, value, least=1):
     """A whole number >= least, as int."""
-    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer) or value < least:
-        raise ValueError(f"{name} = {value!r}: must be a whole number >= {least}")
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer) or not least <= value <= MOST:
+        raise ValueError(f"{name} = {value!r}: must be a whole number >= {least} (and <= 2^53)")
     return int(value)
 
 
 def positive(name, value):
     """A finite float > 0."""
-    return parameter(name, value, allowed="a finite number > 0", lower=0.0, strict=True)
+    return number(name, value, allowed="a finite number > 0", lower=0.0, strict=True)
 
 
 def choice(name, value, allowed):
     """One of the allowed words."""
-    if value not in allowed:
+    if not isinstance(value, Hashable) or value not in allowed:  # an array has no single truth
         raise ValueError(f"{name} = {value!r}: must be one of {', '.join(map(repr, allowed))}")
     return value
 
@@ -78,6 +96,7 @@ def times(value, name="t"):
 
 def double_well(osc):
     """Raise unless delta < 0 < gamma: only then are there two wells and a homoclinic loop."""
+    model(osc)
     for name, value, sign, allowed in (("delta", osc.delta, -1, "< 0"), ("gamma", osc.gamma, 1, "> 0")):
         signed = sign * value
         if not (signed.is_positive if _is_sympy(signed) else np.all(signed > 0)):

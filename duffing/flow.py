@@ -21,6 +21,7 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
 
     Returns an `Orbit`. Raises ValueError for invalid input, DivergedError or ConvergenceError where there is no answer.
     """
+    checks.model(osc)
     checks.choice("method", method, METHODS)
     integrator, allowed = (rk4, RK4_OPTIONS) if method == "rk4" else (friction, FRICTION_OPTIONS)
     for name in options:
@@ -33,6 +34,7 @@ def trajectory(osc, state, t, method="auto", **options):
 
     state : (2,) for all members or (2, *family); method, options, errors : as for `integrate`.
     """
+    checks.model(osc)
     t = checks.times(t)
     orbit = integrate(osc, checks.state(state, osc.shape), t, method=method, **options)
     return orbit.states.reshape(2, t.size, *osc.shape)
@@ -44,5 +46,5 @@ def stroboscopic_times(osc, periods, transient=0, phase=0.0):
     transient, periods : whole numbers of forcing periods; phase : omega t modulo 2 pi (radian)
     """
     cycles = checks.count("transient", transient, least=0) + np.arange(checks.count("periods", periods) + 1)
-    phase = checks.parameter("phase", phase)
+    phase = checks.number("phase", phase)
     return (phase + 2 * np.pi * cycles)[:, None] / osc.columns()[3]

@@ -2,7 +2,7 @@
 
 Every formula takes numbers, arrays, mpmath numbers or sympy symbols (see `arithmetic`), so what is proved
 in the chapters is what is plotted. All quantities are dimensionless. Every function raises ValueError unless
-delta < 0 < gamma.
+delta < 0 < gamma, and DivergedError where the value leaves the range of doubles.
 """
 
 from dataclasses import replace
@@ -11,9 +11,10 @@ import mpmath
 import numpy as np
 
 from . import checks
-from .arithmetic import library
+from .arithmetic import library, within_range
 
 
+@within_range
 def homoclinic_orbit(osc, t, side=1):
     """The orbit of Eq. 8 that leaves the saddle x = 0 and returns to it, at its outermost point at t = 0.
 
@@ -32,6 +33,7 @@ def homoclinic_orbit(osc, t, side=1):
     return _over_family(osc, x, t), _over_family(osc, v, t)
 
 
+@within_range
 def damping_integral(osc):
     """Integral of |v*|^(p+1) over the loop, closed form (the energy that damping takes at alpha = 1).
 
@@ -43,6 +45,7 @@ def damping_integral(osc):
     return scale * lib.beta((osc.p + 2) / 2, (osc.p + 1) / 2)
 
 
+@within_range
 def forcing_integral(osc):
     """Amplitude over t0 of the integral of v* cos(omega (t + t0)): the most energy that forcing gives at mu = 1.
 
@@ -53,12 +56,14 @@ def forcing_integral(osc):
     return lib.sqrt(2 / osc.gamma) * lib.pi * osc.omega * lib.sech(lib.pi * osc.omega / 2 / lib.sqrt(-osc.delta))
 
 
+@within_range
 def melnikov_function(osc, t0, side=1):
     """M(t0) of Eq. 9, evaluated: the energy gained along the loop that is at its outermost point at time t0.
 
     M(t0) = side mu forcing_integral sin(omega t0) - alpha damping_integral; t0 broadcasts with the family.
     The distance of the perturbed manifolds is M(t0) / |grad H0| to first order.
     """
+    checks.double_well(osc)
     checks.choice("side", side, (1, -1))
     t0 = checks.parameter("t0", t0)
     lib = library(osc.omega, t0)
@@ -66,8 +71,10 @@ def melnikov_function(osc, t0, side=1):
     return _over_family(osc, value, t0)
 
 
+@within_range
 def critical_amplitude(osc):
     """mu_c of Eq. 13: the forcing amplitude at which the Melnikov function first has a zero; osc.mu is not used."""
+    checks.double_well(osc)
     return _over_family(osc, osc.alpha * damping_integral(osc) / forcing_integral(osc))
 
 

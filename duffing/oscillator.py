@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from . import checks
-from .arithmetic import library, promoted
+from .arithmetic import library, promoted, within_range
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +74,16 @@ class Duffing:
         return 2 * library(self.omega).pi / self.omega
 
     def columns(self):
-        """The six parameters of every member as float array (6, N): alpha, p, mu, omega, delta, gamma."""
-        full = [np.broadcast_to(np.asarray(v, dtype=float), self.shape).ravel() for v in self._values()]
+        """The six parameters of every member as float array (6, N): alpha, p, mu, omega, delta, gamma.
+
+        Raises ValueError for a symbol: only formulas take it.
+        """
+        full = []
+        for name, value in zip(vars(self), self._values(), strict=True):
+            try:
+                full.append(np.broadcast_to(np.asarray(value, dtype=float), self.shape).ravel())
+            except TypeError:
+                raise ValueError(f"{name} = {value}: must be a number where the equation is integrated") from None
         return np.array(full)
 
     def potential(self, x):
@@ -101,16 +109,22 @@ class Duffing:
     def dimensionless(self):
         """The same motion with delta = -1, gamma = 1: x = sqrt(-delta/gamma) X, t = tau / sqrt(-delta).
 
-        Raises ValueError unless delta < 0 < gamma.
+        Raises ValueError unless delta < 0 < gamma, DivergedError where a field leaves the range of doubles.
         """
         checks.double_well(self)
-        stiffness = -self.delta
-        return Duffing(
-            alpha=self.alpha * stiffness ** (self.p - 1.5) * self.gamma ** ((1 - self.p) / 2),
-            p=self.p,
-            mu=self.mu * self.gamma**0.5 * stiffness**-1.5,
-            omega=self.omega * stiffness**-0.5,
-        )
+        alpha, mu, omega = dimensionless_fields(self)
+        return Duffing(alpha=alpha, p=self.p, mu=mu, omega=omega)
 
     def _values(self):
         return tuple(getattr(self, field.name) for field in fields(self))
+
+
+@within_range
+def dimensionless_fields(osc):
+    """alpha, mu and omega of the same motion in the units in which delta = -1 and gamma = 1."""
+    stiffness = -osc.delta
+    return (
+        osc.alpha * stiffness ** (osc.p - 1.5) * osc.gamma ** ((1 - osc.p) / 2),
+        osc.mu * osc.gamma**0.5 * stiffness**-1.5,
+        osc.omega * stiffness**-0.5,
+    )

@@ -14,8 +14,9 @@ def poincare_section(osc, state, periods, transient=0, phase=0.0, method="auto",
     phase : forcing phase omega t (radian) in [0, 2 pi)
     method, options, errors : as for `duffing.flow.integrate`
     """
+    checks.model(osc)
     state = checks.state(state, osc.shape)
-    phase = checks.parameter("phase", phase)
+    phase = checks.number("phase", phase)
     if not 0 <= phase < 2 * np.pi:
         raise ValueError(f"phase = {phase}: must be in [0, 2 pi)")
     t = stroboscopic_times(osc, periods, transient, phase)

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import checks
 from .errors import NoSaddleOrbitError
 from .oscillator import Duffing
 from .shooting import central_orbit
@@ -82,6 +83,7 @@ def saddle_frame(osc):
 
 def unit_members(osc):
     """The family as N members with delta = -1, gamma = 1; raises ValueError unless delta < 0 < gamma."""
+    checks.double_well(osc)
     return Duffing(*osc.dimensionless().columns())
 
 

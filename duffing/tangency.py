@@ -19,6 +19,7 @@ from .turning import to_turning_point
 _LAUNCHES = 32  # of W^U, all round, to make sure that the splitting found is the greatest
 _ATTEMPTS = 60  # each halves the bracket at least
 _TOLERANCE = 1e-9  # relative, of the tangency
+_LEAST = 1e-7  # of mu, dimensionless: the splitting, of the order of mu, is known to some 1e-14
 
 
 def splitting(osc, phase):
@@ -32,8 +33,9 @@ def splitting(osc, phase):
     such crossing at a phase, or cannot be followed to it.
     """
     phase = np.asarray(checks.parameter("phase", phase))
-    if phase.ndim > 1:
+    if phase.ndim > 1 or phase.size == 0:
         raise ValueError(f"phase has shape {phase.shape}: must be a number or a sequence of them")
+    phase = np.mod(phase, 2 * np.pi)
     frame = saddle_frame(osc)
     values, _ = _split(frame, np.repeat(phase.reshape(-1, 1), frame.osc.mu.size, axis=1))
     return (values.reshape(phase.shape + osc.shape) * units(osc)[0])[()]
@@ -42,15 +44,20 @@ def splitting(osc, phase):
 def homoclinic_tangency(osc):
     """The forcing amplitude mu at which W^U and W^S first touch, (*family); osc.mu is not used.
 
-    There the greatest splitting over all phases is zero. It is found to about 1e-9, relative, starting from mu_c of
-    Eq. 13, by quasi-Newton steps of mu and of the phase, whose starting values are Melnikov's; then the splitting is
-    computed all round to make sure that no other phase is ahead. Errors as for `splitting`.
+    There the greatest splitting over all phases is zero. It is found to about 1e-9, relative (1e-14 / mu where mu, made
+    dimensionless, is below 1e-5), starting from mu_c of Eq. 13, by quasi-Newton steps of mu and of the phase, whose
+    starting values are Melnikov's; then the splitting is computed all round to make sure that no other phase is ahead.
+    Errors as for `splitting`, ConvergenceError also where mu is too small for doubles.
     """
     unit = unit_members(osc)
     mu = np.array(critical_amplitude(unit))
     if not np.all(unit.alpha > 0):
         raise ValueError(
             f"alpha = {osc.alpha}: must be > 0 for a tangency (at alpha = 0 the manifolds meet for every mu)"
+        )
+    if np.any(mu < _LEAST):
+        raise ConvergenceError(
+            f"{names(unit, mu.argmin())}: mu near {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
         )
     phase = np.full(mu.size, np.pi / 2)
     for _ in range(4):
