@@ -57,7 +57,7 @@ def homoclinic_tangency(osc):
         )
     if np.any(mu < _LEAST):
         raise ConvergenceError(
-            f"{names(unit, mu.argmin())}: mu near {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
+            f"{names(unit, mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
         )
     phase = np.full(mu.size, np.pi / 2)
     for _ in range(4):

@@ -1,0 +1,133 @@
+"""Deliberate errors, one at a time: each must turn the suite red.
+
+    python scripts/mutants.py                  all of them, some minutes each where a kernel is compiled anew
+    python scripts/mutants.py melnikov rk4     those of some modules
+
+Each error is put into a copy of the repository. The tests of the module concerned run first, the whole suite only if
+these stay green. Prints which test caught what; the exit code is the number of survivors.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+PATIENCE = 1200  # seconds; the whole suite takes some minutes, a loop without end for ever
+
+
+class Mutant(NamedTuple):
+    """An error: in duffing/<module>.py the text `good`, which occurs once, becomes `bad`. tests : files to try first."""
+
+    module: str
+    what: str
+    good: str
+    bad: str
+    tests: tuple = ()
+
+
+MUTANTS = (
+    Mutant("oscillator", "sign of the linear force", "return -self.delta * x", "return self.delta * x"),
+    Mutant("oscillator", "lost |v| in the damping", "sign(v) * abs(v) ** self.p", "sign(v) * v ** self.p"),
+    Mutant("oscillator", "factor of the quartic potential", "self.gamma * x**4 / 4", "self.gamma * x**4 / 2"),
+    Mutant("oscillator", "power of alpha's unit", "(osc.p - 1.5)", "(osc.p - 0.5)"),
+    Mutant("melnikov", "sign of the homoclinic velocity", "* osc.delta * lib.tanh(u)", "* -osc.delta * lib.tanh(u)"),
+    Mutant("melnikov", "argument of the Beta function", "(osc.p + 2) / 2, (osc", "(osc.p + 1) / 2, (osc"),
+    Mutant("melnikov", "factor of the forcing integral", "lib.pi * osc.omega / 2 /", "lib.pi * osc.omega /"),
+    Mutant("melnikov", "damping term enters with the wrong sign", "- osc.alpha * damping", "+ osc.alpha * damping"),
+    Mutant("melnikov", "alpha forgotten in mu_c", "osc.alpha * damping_integral(osc) /", "damping_integral(osc) /"),
+    Mutant("rk4", "weight of the third stage", "cosines[now + 1], cosines[now + 2]", "cosines[now], cosines[now + 2]"),
+    Mutant("rk4", "sign of the damping", "fma(-friction, v, force)", "fma(friction, v, force)"),
+    Mutant("rk4", "p forgotten in the tangent's damping", "b[_P, l] * friction", "friction"),
+    Mutant("rk4", "factor of the cubic stiffness in the tangent", "fma(3.0, stiffness", "fma(1.0, stiffness"),
+    Mutant("rk4", "Runge-Kutta's last weight", "(1.0 / 6.0)", "(1.0 / 6.001)"),
+    Mutant("rk4", "side of the second tangent", "-side * eta, side * xi\n        b[_Q", "side * eta, side * xi\n        b[_Q"),
+    Mutant("powers", "one cell of the table off", "_mp.mpf(j) + 0.5", "_mp.mpf(j) + 0.4"),
+    Mutant("powers", "lost absolute value", "max(abs(v), q.least)\n    field", "max(v, q.least)\n    field"),
+    Mutant("forcing", "phase of the steps' middles", "np.arange(2 * count + 1) / (2 * count)", "np.arange(2 * count + 1) / (2 * count + 1)"),
+    Mutant("forcing", "cosine beyond the quarter turn", "part > 0.25, -total", "part > 0.25, total"),
+    Mutant("companion", "the companion is put back on the wrong side", "apart * (d0 / distance)", "-apart * (d0 / distance)"),
+    Mutant("companion", "distance not reset", "apart * (d0 / distance)", "apart"),
+    Mutant("friction", "rotation of the second frame", "-np.sin(a)], [np.sin(a)", "np.sin(a)], [-np.sin(a)"),
+    Mutant("friction", "shear forgotten in the propagator", "r11 * frames[SHEAR]", "0 * frames[SHEAR]"),
+    Mutant("follow", "two tangents' area", "y[XI1] * y[ETA2] - y[ETA1] * y[XI2] if", "y[XI1] * y[ETA2] + y[ETA1] * y[XI2] if"),
+    Mutant("creep", "sign of the relaxation", "h * q[ALPHA] * _A[i, j] - h * h", "-h * q[ALPHA] * _A[i, j] - h * h"),
+    Mutant("creep", "a passage through zero does not annihilate", "return math.inf\n    for g", "return 0.0\n    for g"),
+    Mutant("friction_time", "exponent of phi", "q[M] * abs(w) ** (q[M] - 1), power", "q[M] * abs(w) ** q[M], power"),
+    Mutant("friction_time", "phase of the forcing", "(q[START] + t))", "t)"),
+    Mutant("turning", "derivative of the time", "-math.inf, within=None", "0.0, within=None"),
+    Mutant("flow", "stroboscopic times off by one", "np.arange(checks.count(\"periods\", periods) + 1)", "1 + np.arange(checks.count(\"periods\", periods) + 1)"),
+    Mutant("poincare", "points off by one", "orbit.states[:, -periods:]", "orbit.states[:, -periods - 1 : -1]"),
+    Mutant("lyapunov", "transient not thrown away", "growth[None, transient:]", "growth[None, :periods]"),
+    Mutant("lyapunov", "per period instead of per unit time", "history = history / period", "history = history * 1"),
+    Mutant("lyapunov", "exponents in the wrong order", "np.argsort(-history[:, -1]", "np.argsort(history[:, -1]"),
+    Mutant("lyapunov", "errors not reordered with the exponents", "np.take_along_axis(error, order, axis=0)", "error"),
+    Mutant("shooting", "the half period's mirror", "-= np.eye(2) if j + 1 < segments else -np.eye(2)", "-= np.eye(2)"),
+    Mutant("saddle", "stable direction not inverted", "[[maps[1, 1, j], -maps[0, 1, j]]", "[[maps[1, 1, j], maps[0, 1, j]]"),
+    Mutant("saddle", "multipliers swapped", "np.array([unstable, np.exp(log_area) / unstable])", "np.array([np.exp(log_area) / unstable, unstable])"),
+    Mutant("manifolds", "launch on the wrong side", "offset = side *", "offset = -side *"),
+    Mutant("manifolds", "flight in the wrong sense", "section - flight if kind == UNSTABLE", "section + flight if kind == UNSTABLE"),
+    Mutant("tangency", "sign of the splitting", "(unstable - stable).reshape", "(stable - unstable).reshape"),
+    Mutant("tangency", "phase of the extremum ignored", "value - slope**2 / (2 * curvature)", "value"),
+    Mutant("correction", "the return forgotten", "for y in (leaving, -leaving):", "for y in (leaving,):"),
+    Mutant("sticking", "bracket's wrong end", "low, high = np.where(stuck, middle, low), np.where(stuck, high, middle)", "low, high = np.where(stuck, low, middle), np.where(stuck, middle, high)"),
+    Mutant("reproduction", "stroboscopic points off by one", "path[:, kept::kept]", "path[:, 1 + kept :: kept]"),
+    Mutant("reproduction", "onset below the threshold", "exponents > paper.THRESHOLD\n    return", "exponents > 0.5 * paper.THRESHOLD\n    return"),
+    Mutant("remember", "results may be written into", "result.flags.writeable = False", "pass"),
+    Mutant("figures", "transient and steady colours swapped", "TRANSIENT, STEADY = SKY, VERMILION", "TRANSIENT, STEADY = VERMILION, SKY"),
+)  # a line each  # fmt: skip
+
+
+def apply(mutant, root):
+    """Put the error into the copy; returns the file's good text."""
+    path = root / "duffing" / f"{mutant.module}.py"
+    text = path.read_text()
+    if text.count(mutant.good) != 1:
+        raise ValueError(f"{mutant.module}: {mutant.good!r} must occur once, not {text.count(mutant.good)} times")
+    path.write_text(text.replace(mutant.good, mutant.bad))
+    return path, text
+
+
+def first_failure(root, files):
+    """Name of the first test that fails, or None; a suite that cannot even be collected has failed."""
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "--no-header", "--tb=no", "-p", "no:cacheprovider", *files]
+    # Found first, so that the installed package is not the one tested.
+    environment = {**os.environ, "PYTHONPATH": str(root)}
+    try:
+        run = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return f"the tests do not end within {PATIENCE} s"
+    if run.returncode == 0:
+        return None
+    found = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", run.stdout, re.M)
+    return found[1] if found else f"pytest ended with {run.returncode}"
+
+
+def main(modules):
+    chosen = [mutant for mutant in MUTANTS if not modules or mutant.module in modules]
+    survivors = 0
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        for name in ("duffing", "tests", "extensions", "chapters", "scripts", "pyproject.toml"):
+            copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
+            copy(ROOT / name, root / name)
+        for mutant in chosen:
+            path, good = apply(mutant, root)
+            own = f"tests/test_{mutant.module}.py"
+            files = mutant.tests or ((own,) if (root / own).exists() else ())
+            caught = (first_failure(root, files) if files else None) or first_failure(
+                root, ("--ignore=tests/test_book.py",)
+            )
+            path.write_text(good)
+            survivors += caught is None
+            print(f"{mutant.module:13} {mutant.what:50} {caught or 'SURVIVED'}", flush=True)
+    print(f"{len(chosen) - survivors} of {len(chosen)} caught")
+    return survivors
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

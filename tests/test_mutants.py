@@ -1,0 +1,19 @@
+"""The list of deliberate errors (scripts/mutants.py) fits the code: each of them can be made, at one place."""
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+MUTANTS = runpy.run_path(ROOT / "scripts" / "mutants.py")["MUTANTS"]
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: f"{mutant.module}: {mutant.what}")
+def test_the_error_can_be_put_into_the_code_at_one_place(mutant):
+    assert (ROOT / "duffing" / f"{mutant.module}.py").read_text().count(mutant.good) == 1
+    assert mutant.bad != mutant.good
+
+
+def test_there_are_at_least_thirty_and_none_twice():
+    assert len({(mutant.module, mutant.good, mutant.bad) for mutant in MUTANTS}) == len(MUTANTS) >= 30
