@@ -52,7 +52,7 @@ baselines: $(READY)
 environment:
 	grep -sv '^-e' environment.txt >environment.new || true
 	uv pip compile --quiet --universal --python-version 3.11 --fork-strategy fewest --no-annotate --no-header \
-	    --extra book --extra test pyproject.toml -o environment.new
+	    --extra book --extra cluster --extra test pyproject.toml -o environment.new
 	{ echo '# Every package pinned, for Python 3.11 to 3.13 on Linux and on macOS (Arm). Compiled from pyproject.toml by `make environment`.'; \
 	    cat environment.new; echo '-e .'; } >environment.txt
 	rm environment.new

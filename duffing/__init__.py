@@ -1,6 +1,6 @@
 """The Duffing oscillator with power-law (fractional-exponent) damping. See the README and the book."""
 
-from .errors import ConvergenceError, DivergedError, DuffingError, NoSaddleOrbitError
+from .errors import ConvergenceError, DivergedError, DuffingError, LostWorkerError, NoSaddleOrbitError
 from .flow import trajectory
 from .lyapunov import LyapunovSpectrum, lyapunov_spectrum, two_trajectory_exponent
 from .melnikov import critical_amplitude, homoclinic_orbit, melnikov_function
@@ -14,6 +14,7 @@ __all__ = [
     "DivergedError",
     "Duffing",
     "DuffingError",
+    "LostWorkerError",
     "LyapunovSpectrum",
     "NoSaddleOrbitError",
     "SaddleOrbit",

@@ -20,9 +20,11 @@ integral of t^(1-1/p), diverges for p <= 1/2: a tangent direction is annihilated
 import math
 
 import numpy as np
+from numba import carray, njit
 
 from .compiled import compiled
-from .friction_time import ALPHA, DELTA, ETA1, GAMMA, MU, XI1, P, S, T, X, force, stiffness
+from .friction_time import force, stiffness
+from .lanes import ALPHA, DELTA, GAMMA, MU, NEW, WIDTH, XI1, P, S, T, X, stack
 
 STAGES = 5
 SLOW = 0.3  # near the slow branch |F - alpha Y| is less than this part of the force
@@ -61,36 +63,36 @@ _FINE = _lagrange(_POINTS, _G)
 
 
 @compiled
-def creep(q, y, Y0, h, tangents, rtol, atol, new):
-    """One step of h > 0 in time from y, where the damping force is Y0: new (its entry W untouched) is the state there.
+def creep(a, l, Y0, h, tangents, rtol, atol):
+    """One step of h > 0 in time of one lane, whose damping force is Y0: NEW (its row W untouched) is the state there.
 
     Returns the damping force at the end, the estimated error (1 = just tolerable; infinite: the iteration failed), the
     passages of Y through zero (-1 if the force is not zero there: a turn, no creep), the number of force evaluations.
     """
-    r = 1 / q[P]
-    Y, v, phi = np.empty(STAGES + 1), np.empty(STAGES + 1), np.empty(STAGES + 1)
-    F, x, spring = np.empty(STAGES + 1), np.empty(STAGES + 1), np.empty(STAGES + 1)
-    J, rhs, order = np.empty((STAGES, STAGES)), np.empty(STAGES), np.empty(STAGES, dtype=np.int64)
-    Y[0], x[0] = Y0, y[X]
+    r = 1 / a[P + l]
+    Y, v, phi = stack(8), stack(8), stack(8)
+    F, x, spring = stack(8), stack(8), stack(8)
+    J, rhs, order = carray(stack(32), (STAGES, STAGES)), stack(8), stack(8)
+    Y[0], x[0] = Y0, a[X + l]
     phi[0] = r * abs(Y0) ** (r - 1)
     v[0] = phi[0] * Y0 / r
-    F[0] = force(q, x[0], y[T])
+    F[0] = force(a, l, x[0], a[T + l])
     for i in range(1, STAGES + 1):
         c = _POINTS[i] * h
-        Y[i] = Y0 + (force(q, x[0] + c * v[0], y[T] + c) - F[0]) / q[ALPHA]
+        Y[i] = Y0 + (force(a, l, x[0] + c * v[0], a[T + l] + c) - F[0]) / a[ALPHA + l]
     count, converged = 1 + STAGES, False
     for _ in range(30):
-        _stages(q, y[T], h, r, Y, v, phi, F, x, spring)
+        _stages(a, l, a[T + l], h, r, Y, v, phi, F, x, spring)
         count += STAGES
         largest = 0.0
         for i in range(STAGES):
             residual = v[i + 1] - v[0]
             for j in range(STAGES):
-                residual -= h * _A[i, j] * (F[j + 1] - q[ALPHA] * Y[j + 1])
+                residual -= h * _A[i, j] * (F[j + 1] - a[ALPHA + l] * Y[j + 1])
                 mixed = 0.0
                 for k in range(STAGES):
                     mixed += _A[i, k] * spring[k + 1] * _A[k, j]
-                J[i, j] = h * q[ALPHA] * _A[i, j] - h * h * mixed * phi[j + 1]
+                J[i, j] = h * a[ALPHA + l] * _A[i, j] - h * h * mixed * phi[j + 1]
             J[i, i] += phi[i + 1]
             rhs[i] = -residual
             largest = max(largest, abs(Y[i + 1]))
@@ -100,40 +102,42 @@ def creep(q, y, Y0, h, tangents, rtol, atol, new):
         for i in range(STAGES):
             Y[i + 1] += rhs[i]
             change = max(change, abs(rhs[i]))
-        if converged:
+        if converged or change <= 1e-10 * largest:
+            converged = True
             break
         converged = change <= 1e-7 * largest + 1e-300  # the next iterate is then exact to rounding
     if not converged:
         return Y0, math.inf, 0, count
-    _stages(q, y[T], h, r, Y, v, phi, F, x, spring)
+    _stages(a, l, a[T + l], h, r, Y, v, phi, F, x, spring)
     count += STAGES
-    new[X], new[T] = x[STAGES], y[T] + h
-    new[S] = y[S] + _friction_time(q, h, Y)
+    a[NEW + X + l], a[NEW + T + l] = x[STAGES], a[T + l] + h
+    a[NEW + S + l] = a[S + l] + _friction_time(a[P + l], h, Y)
     passages = _passages(Y)
-    slow = SLOW if q[P] < 0.5 else 1.0  # at p = 1/2 the passage is never nearer to the slow branch than its start
-    if passages > 0 and (passages != _passages(F) or abs(F[0] - q[ALPHA] * Y0) > slow * abs(F[0])):
+    slow = SLOW if a[P + l] < 0.5 else 1.0  # at p = 1/2 the passage is never nearer to the slow branch than its start
+    if passages > 0 and (passages != _passages(F) or abs(F[0] - a[ALPHA + l] * Y0) > slow * abs(F[0])):
         passages = -1
     for vector in range(tangents):
-        xi, eta = XI1 + 2 * vector, ETA1 + 2 * vector
+        xi = XI1 + 2 * WIDTH * vector + l
+        eta = xi + WIDTH
         for i in range(STAGES):
-            rhs[i] = y[eta]
+            rhs[i] = a[eta]
             for j in range(STAGES):
-                rhs[i] += h * _A[i, j] * spring[j + 1] * y[xi]
+                rhs[i] += h * _A[i, j] * spring[j + 1] * a[xi]
         _solve(J, order, rhs)
-        new[xi], new[eta] = y[xi], phi[STAGES] * rhs[STAGES - 1]
+        a[NEW + xi], a[NEW + eta] = a[xi], phi[STAGES] * rhs[STAGES - 1]
         for j in range(STAGES):
-            new[xi] += h * _A[STAGES - 1, j] * phi[j + 1] * rhs[j]
+            a[NEW + xi] += h * _A[STAGES - 1, j] * phi[j + 1] * rhs[j]
     ex, ev = 0.0, 0.0
     for i in range(STAGES + 1):
         ex += h * _DIFFERENCE[i] * v[i]
-        ev += h * _DIFFERENCE[i] * (F[i] - q[ALPHA] * Y[i])
-    ev *= phi[STAGES] / (phi[STAGES] + 0.1 * h * q[ALPHA])  # the relaxation damps what the estimate sees of it
+        ev += h * _DIFFERENCE[i] * (F[i] - a[ALPHA + l] * Y[i])
+    ev *= phi[STAGES] / (phi[STAGES] + 0.1 * h * a[ALPHA + l])  # the relaxation damps what the estimate sees of it
     scale = atol + rtol * math.hypot(x[0], v[0])  # of the old point, as in dop853
     return Y[STAGES], math.hypot(ex, ev) / scale, passages, count
 
 
 @compiled
-def _stages(q, t, h, r, Y, v, phi, F, x, spring):
+def _stages(a, l, t, h, r, Y, v, phi, F, x, spring):
     """Velocity, phi, position, force and stiffness at the stages (entries 1 to 5) from the damping force Y there."""
     for i in range(1, STAGES + 1):
         phi[i] = r * abs(Y[i]) ** (r - 1)
@@ -142,22 +146,24 @@ def _stages(q, t, h, r, Y, v, phi, F, x, spring):
         x[i] = x[0]
         for j in range(STAGES):
             x[i] += h * _A[i - 1, j] * v[j + 1]
-        F[i] = force(q, x[i], t + _POINTS[i] * h)
-        spring[i] = stiffness(q, x[i])
+        F[i] = force(a, l, x[i], t + _POINTS[i] * h)
+        spring[i] = stiffness(a, l, x[i])
 
 
 @compiled
-def _friction_time(q, h, Y):
+def _friction_time(p, h, Y):
     """Integral of p |Y|^(1-1/p) over the step; infinite for p <= 1/2 if Y vanishes in it."""
-    total, vanishes = 0.0, _passages(Y) > 0 or np.min(np.abs(Y)) == 0.0
-    if vanishes and q[P] <= 0.5:
+    total, vanishes, logs = 0.0, _passages(Y) > 0, stack(8)
+    for i in range(STAGES + 1):
+        vanishes = vanishes or Y[i] == 0.0
+        logs[i] = math.log(abs(Y[i]))
+    if vanishes and p <= 0.5:
         return math.inf
     for g in range(_GAUSS):
         value = 0.0
         for i in range(STAGES + 1):
-            value += _FINE[g, i] * (Y[i] if vanishes else math.log(abs(Y[i])))
-        size = abs(value) if vanishes else math.exp(value)
-        total += h * _GW[g] * q[P] * size ** (1 - 1 / q[P])
+            value += _FINE[g, i] * (Y[i] if vanishes else logs[i])
+        total += h * _GW[g] * p * (abs(value) ** (1 - 1 / p) if vanishes else math.exp((1 - 1 / p) * value))
     return total
 
 
@@ -180,38 +186,37 @@ def _passages(values):
 @compiled
 def _factor(J, order):
     """LU factors of J in place, rows exchanged: row k with order[k]."""
-    size = order.size
-    for k in range(size):
+    for k in range(STAGES):
         best = k
-        for i in range(k + 1, size):
+        for i in range(k + 1, STAGES):
             if abs(J[i, k]) > abs(J[best, k]):
                 best = i
         order[k] = best
-        for j in range(size):
+        for j in range(STAGES):
             J[k, j], J[best, j] = J[best, j], J[k, j]
-        for i in range(k + 1, size):
+        for i in range(k + 1, STAGES):
             J[i, k] /= J[k, k]
-            for j in range(k + 1, size):
+            for j in range(k + 1, STAGES):
                 J[i, j] -= J[i, k] * J[k, j]
 
 
 @compiled
 def _solve(J, order, b):
     """Solve with the factors, in place."""
-    size = order.size
-    for k in range(size):
-        b[k], b[order[k]] = b[order[k]], b[k]
-    for k in range(size):
+    for k in range(STAGES):
+        best = int(order[k])
+        b[k], b[best] = b[best], b[k]
+    for k in range(STAGES):
         for j in range(k):
             b[k] -= J[k, j] * b[j]
-    for k in range(size - 1, -1, -1):
-        for j in range(k + 1, size):
+    for k in range(STAGES - 1, -1, -1):
+        for j in range(k + 1, STAGES):
             b[k] -= J[k, j] * b[j]
         b[k] /= J[k, k]
 
 
-@compiled
-def at_rest(q, x, F, Y):
+@njit(forceinline=True)
+def at_rest(a, l, x, F, Y):
     """Whether force and damping are both below the rounding error of the force: nothing moves that can be computed."""
-    noise = 1e-13 * (abs(q[DELTA] * x) + abs(q[GAMMA] * x**3) + q[MU])
-    return q[ALPHA] > 0.0 and abs(F) <= noise and q[ALPHA] * abs(Y) <= noise
+    noise = 1e-13 * (abs(a[DELTA + l] * x) + abs(a[GAMMA + l] * x * x * x) + a[MU + l])
+    return (a[ALPHA + l] > 0.0) & (abs(F) <= noise) & (a[ALPHA + l] * abs(Y) <= noise)

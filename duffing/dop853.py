@@ -1,18 +1,18 @@
-"""One adaptive step of Dormand and Prince's pair of order 8 with errors of order 5 and 3, and exact landing.
+"""One adaptive step of Dormand and Prince's pair of order 8 with errors of order 5 and 3, in all lanes of a block.
 
 Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I (1993), sections II.5 and II.10. The
 coefficients are SciPy's. The equations are those of `friction_time`; nothing here knows the friction.
 """
 
-import math
-
 import numpy as np
+from numba import njit
 from scipy.integrate import DOP853
 
 from .compiled import compiled
-from .friction_time import ETA1, ETA2, XI1, XI2, M, S, T, W, X, rate
+from .friction_time import rates
+from .lanes import NEW, RATE, SLOPES, STATE, WIDTH, H, M, S, T, W, X
+from .powers import fma
 
-STAGES = 13  # twelve, and the rate at the new point, which is the first stage of the next step
 _TABLE = np.vstack([DOP853.A, DOP853.B])  # the last row leads to the new point
 _E3, _E5 = np.ascontiguousarray(DOP853.E3), np.ascontiguousarray(DOP853.E5)
 # A step's error in w alone displaces the point along its own orbit where time hardly runs; friction time and
@@ -21,114 +21,86 @@ _ALONG = 0.01
 
 
 @compiled
-def advance(q, y, h, tangents, K, new):
-    """new = y after a step h in sigma. K (13, 8) holds the rate at y in K[0]; its other rows are overwritten."""
-    for stage in range(1, 12):
-        _combine(y, h, stage, tangents, K, new)
-        rate(q, new, tangents, K, stage)
-    _combine(y, h, 12, tangents, K, new)
-    rate(q, new, tangents, K, 12)
+def advance(a, eights, tangents, kind):
+    """NEW = state after a step of H, RATE = the slopes there; SLOPES of stage 0 are those at the state."""
+    end = STATE - (2 - tangents) * 2 * WIDTH
+    # A line a stage: its number is then a constant, the sum over stages unrolls and leaves out the table's zeros.
+    _combine(a, eights, 1, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 2, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 3, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 4, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 5, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 6, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 7, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 8, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 9, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 10, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 11, X, end)
+    rates(a, eights, tangents, kind)
+    _combine(a, eights, 12, S, end)  # friction time acts on nothing: only its end counts
+    rates(a, eights, tangents, kind)
 
 
-@compiled
-def _combine(y, h, stage, tangents, K, new):
-    """new = y + h (the stage's row of the table) K. The sums are spelled out so that they stay in registers."""
-    x, w, t, s = 0.0, 0.0, 0.0, 0.0
-    for j in range(stage):
-        a = _TABLE[stage, j]
-        x += a * K[j, X]
-        w += a * K[j, W]
-        t += a * K[j, T]
-        s += a * K[j, S]
-    new[X], new[W], new[T], new[S] = y[X] + h * x, y[W] + h * w, y[T] + h * t, y[S] + h * s
-    if tangents > 0:
-        x, w, t, s = 0.0, 0.0, 0.0, 0.0
-        for j in range(stage):
-            a = _TABLE[stage, j]
-            x += a * K[j, XI1]
-            w += a * K[j, ETA1]
-            t += a * K[j, XI2]
-            s += a * K[j, ETA2]
-        new[XI1], new[ETA1] = y[XI1] + h * x, y[ETA1] + h * w
-        new[XI2], new[ETA2] = y[XI2] + h * t, y[ETA2] + h * s
+@njit(forceinline=True)
+def _combine(a, eights, stage, first, end):
+    """NEW = state + H (the stage's row of the table) slopes for the rows from first to end."""
+    if stage > 1:  # keep the slopes of the stage before
+        for row in range(S, end, WIDTH):
+            for l in range(8 * eights):
+                a[SLOPES + (stage - 1) * STATE + row + l] = a[RATE + row + l]
+    for row in range(first, end, WIDTH):
+        for l in range(8 * eights):
+            total = 0.0
+            for j in range(stage):
+                if _TABLE[stage, j] != 0.0:
+                    total = fma(_TABLE[stage, j], a[SLOPES + j * STATE + row + l], total)
+            a[NEW + row + l] = fma(a[H + l], total, a[row + l])
 
 
-@compiled
-def error(q, y, new, h, K, rtol, atol):
+@njit(forceinline=True)
+def error(a, l, rtol, atol):
     """Estimated error of the step, 1 = just tolerable: of x and v at fixed time, relative to the state's length."""
-    v = K[12, X] / K[12, T] if K[12, T] > 0.0 else 0.0
-    phi = q[M] * v / new[W] if new[W] != 0.0 else 1.0 * (q[M] == 1.0)
-    acceleration = K[12, W] * (1.0 if q[M] == 1.0 else q[M] + phi)
+    m, w = a[M + l], a[NEW + W + l]
+    v = _quotient(a[RATE + X + l], a[RATE + T + l])
+    phi = 1.0 if m == 1.0 else m * _quotient(v, w)
+    acceleration = a[RATE + W + l] * (1.0 if m == 1.0 else m + phi)
+    x5, w5, t5 = _estimate(a, l, X, _E5), _estimate(a, l, W, _E5), _estimate(a, l, T, _E5)
+    x3, w3, t3 = _estimate(a, l, X, _E3), _estimate(a, l, W, _E3), _estimate(a, l, T, _E3)
+    squares5 = _square(x5, w5, t5, v, phi, acceleration)
+    squares = squares5 + 0.01 * _square(x3, w3, t3, v, phi, acceleration)
     # Of the old point: a step that has gone wild would excuse itself by the size of what it leads to.
-    scale = atol + rtol * math.hypot(y[X], K[0, X] / K[0, T] if K[0, T] > 0.0 else 0.0)
-    squares5, squares3 = 0.0, 0.0
-    for order in (5, 3):
-        ex, ew, et = 0.0, 0.0, 0.0
-        for j in range(13):
-            weight = _E5[j] if order == 5 else _E3[j]
-            ex += weight * K[j, X]
-            ew += weight * K[j, W]
-            et += weight * K[j, T]
-        # The flow carries an error in time to one in the state: what counts is the state at the same time.
-        total = (ex - v * et) ** 2 + (phi * ew - acceleration * et) ** 2 + (_ALONG * ew) ** 2
-        if order == 5:
-            squares5 = total
-        else:
-            squares3 = total
-    if squares5 == 0.0 and squares3 == 0.0:
-        return 0.0
-    return abs(h) / scale * squares5 / math.sqrt(squares5 + 0.01 * squares3)
+    x, v = a[X + l], _quotient(a[SLOPES + X + l], a[SLOPES + T + l])
+    scale = atol + rtol * np.sqrt(x * x + v * v)
+    return 0.0 if squares == 0.0 else abs(a[H + l]) / scale * squares5 / np.sqrt(squares)
 
 
-@compiled
-def land(q, y, h, tangents, component, target, K, new):
-    """Repeat the step with the length h* in (0, h] that makes y[component] = target (it lies between y and new).
-
-    Newton's iteration in the step's length, kept inside a bracket. The last, negligible part of the way is gone by the
-    tangent to the orbit. Returns the number of rates evaluated; new and K[12] are those at the target.
-    """
-    near, far = 0.0, h
-    length = _first_guess(y[component] - target, K[0, component], new[component] - target, K[12, component], h)
-    evaluations = 1
-    for _ in range(60):
-        advance(q, y, length, tangents, K, new)
-        evaluations += 12
-        miss = target - new[component]
-        slope = K[12, component]
-        if miss * (target - y[component]) > 0:
-            near = length
-        else:
-            far = length
-        correction = miss / slope
-        if abs(miss) <= 4e-16 * max(1.0, abs(target)) or abs(far - near) <= 1e-14 * abs(h):
-            break
-        if abs(correction) <= 1e-9 * abs(h):
-            for d in range(y.size):
-                new[d] += correction * K[12, d]
-            length += correction
-            break
-        trial = length + correction
-        if not min(near, far) < trial < max(near, far):
-            trial = 0.5 * (near + far)
-        length = trial
-    new[component] = target
-    rate(q, new, tangents, K, 12)
-    return evaluations
+@njit(forceinline=True)
+def _quotient(a, b):
+    return 0.0 if b == 0.0 else a / b
 
 
-@compiled
-def _first_guess(f0, slope0, f1, slope1, h):
-    """Zero of the cubic through both ends of the step, by a few Newton steps inside the bracket."""
-    near, far = 0.0, 1.0
-    z = f0 / (f0 - f1)
-    for _ in range(8):
-        value = (1 + 2 * z) * (1 - z) ** 2 * f0 + z * (1 - z) ** 2 * h * slope0
-        value += z * z * (3 - 2 * z) * f1 - z * z * (1 - z) * h * slope1
-        if value * f0 > 0:
-            near = z
-        else:
-            far = z
-        slope = 6 * z * (1 - z) * (f1 - f0) + (1 - z) * (1 - 3 * z) * h * slope0 - z * (2 - 3 * z) * h * slope1
-        trial = z - value / slope
-        z = trial if near < trial < far else 0.5 * (near + far)
-    return z * h
+@njit(forceinline=True)
+def _estimate(a, l, row, weights):
+    """The weighted sum of a component's slopes."""
+    total = 0.0
+    for j in range(12):
+        if weights[j] != 0.0:
+            total = fma(weights[j], a[SLOPES + j * STATE + row + l], total)
+    return total
+
+
+@njit(forceinline=True)
+def _square(x, w, t, v, phi, acceleration):
+    """Squared error of the state. The flow carries one in time to one in the state: what counts is the same time."""
+    ex, ev, ew = fma(-v, t, x), fma(phi, w, -acceleration * t), _ALONG * w
+    return fma(ex, ex, fma(ev, ev, ew * ew))

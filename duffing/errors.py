@@ -19,3 +19,7 @@ class NoSaddleOrbitError(DuffingError):
 
 class ConvergenceError(DuffingError):
     """An iteration or an adaptive integration did not reach its tolerance within its bound on work."""
+
+
+class LostWorkerError(DuffingError):
+    """A block of a sweep ended its worker process each time that it was tried, or no worker was left to try it."""

@@ -35,8 +35,22 @@ def panel(xlabel, ylabel, **figure):
 
 
 def line_of(p):
-    """Colour, dash and label of the exponent p."""
-    return {"color": P_COLOUR.get(p, GREY), "linestyle": P_DASH.get(p, "-"), "label": f"$p = {p:g}$"}
+    """Colour, dash and label of the exponent p.
+
+    An exponent that the book does not use gets a look of its own: 7 and 3 divide no step such as 0.05, 0.1 or 0.25, so
+    that equally spaced exponents differ in colour or in dash over 21 of them; no such dash is in P_DASH.
+    """
+    hundredths = round(100 * float(p))
+    colour = list(P_COLOUR.values())[hundredths % 7]
+    dash = (0, (7, 1, *(hundredths % 3 + 1) * (1, 1)))
+    return {"color": P_COLOUR.get(p, colour), "linestyle": P_DASH.get(p, dash), "label": f"$p = {p:g}$"}
+
+
+def beyond(curves, share):
+    """A limit of an axis a share beyond the greatest of the curves' absolute values, at a round number."""
+    greatest = share * max(np.max(np.abs(curve)) for curve in curves)
+    unit = 0.05 * 10.0 ** np.floor(np.log10(greatest))
+    return round(float(np.ceil(greatest / unit) * unit), 12)
 
 
 @styled
@@ -70,10 +84,15 @@ def draw_manifolds(axes, loops, stable, unstable):
 
 
 @styled
-def fig2(loops, cases, xlim=(-1.75, 1.75), ylim=(-1.05, 1.05)):
-    """Homoclinic loops under the manifolds of each case, a panel each: (title, stable curves, unstable curves)."""
+def fig2(loops, cases, xlim=None, ylim=None):
+    """Homoclinic loops under the manifolds of each case, a panel each: (title, stable curves, unstable curves).
+
+    xlim, ylim : None for limits round the loops
+    """
     fig = PageFigure(figsize=(3.4 + 1.3 * len(cases) + 0.8, 3.9))
-    panels = fig.subplots(1, len(cases), sharey=True)
+    panels = fig.subplots(1, len(cases), sharey=True, squeeze=False)[0]
+    width, height = (beyond([loop[i] for loop in loops], share) for i, share in ((0, 1.23), (1, 1.48)))
+    xlim, ylim = xlim or (-width, width), ylim or (-height, height)
     for axes, (title, stable, unstable) in zip(panels, cases, strict=True):
         draw_manifolds(axes, loops, stable, unstable)
         axes.set(xlabel="displacement $x$ (dimensionless)", xlim=xlim, ylim=ylim)
@@ -114,7 +133,7 @@ def fig4(mu, exponent, p, threshold):
     fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)")
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0, label=rf"threshold $\lambda_1 = {threshold:g}$")
-    axes.plot(mu, exponent, color=P_COLOUR.get(p, GREY), linewidth=1.1, label=f"$p = {p:g}$")
+    axes.plot(mu, exponent, color=line_of(p)["color"], linewidth=1.1, label=f"$p = {p:g}$")
     axes.set_xlim(mu[0], mu[-1])
     fig.legend(loc="outside upper right", ncols=2)
     return fig

@@ -1,5 +1,7 @@
 """The book's own figures, beyond the paper's: arrays in, a matplotlib Figure out. Nothing is computed here."""
 
+from itertools import cycle
+
 import numpy as np
 
 from .figures import BLACK, BLUE, GREEN, GREY, ORANGE, P_COLOUR, PURPLE, VERMILION, fig3b, line_of, panel
@@ -48,7 +50,7 @@ def headline(p, mu_c, p_tangency, tangency, p_onset, onset):
 def work_precision(tables):
     """Error against force evaluations, one panel for each p: dict p -> dict method -> (evaluations, error)."""
     fig = PageFigure(figsize=(6.8, 3.9))
-    panels = fig.subplots(1, len(tables), sharey=True)
+    panels = fig.subplots(1, len(tables), sharey=True, squeeze=False)[0]
     for axes, (p, table) in zip(panels, tables.items(), strict=True):
         for method, (evaluations, error) in table.items():
             colour, marker, dash = METHODS[method]
@@ -60,14 +62,14 @@ def work_precision(tables):
 
 
 @styled
-def resolved_exponents(mu, coarse, mu_exact, exact, threshold):
-    """lambda_1 against mu: the paper's step (thin) and friction time (thick)."""
+def resolved_exponents(mu, coarse, mu_exact, exact, threshold, ylim=None):
+    """lambda_1 against mu: the paper's step (thin) and friction time (thick); ylim None shows all of both."""
     fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)", figsize=(6.8, 4.2))
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0)
     axes.plot(mu, coarse, color=GREY, linewidth=0.8, label="the paper's algorithm")
     axes.plot(mu_exact, exact, color=P_COLOUR[0.1], linewidth=1.6, label="friction time")
-    axes.set(xlim=(mu_exact[0], mu_exact[-1]), ylim=(-0.75, 0.25))
+    axes.set(xlim=(mu_exact[0], mu_exact[-1]), ylim=ylim)
     axes.legend(loc="lower right")
     return fig
 
@@ -98,7 +100,7 @@ def dry_limit(p, exponents, mu):
     """lambda_1 against p (logarithmic) for several forcings: exponents (len(p), len(mu))."""
     fig, axes = panel("damping exponent $p$", r"$\lambda_1$ (per unit time)")
     axes.axhline(0, color=GREY, linewidth=0.8)
-    looks = zip((BLACK, GREY, GREEN, PURPLE), ("o", "s", "D", "^"), strict=True)
+    looks = zip(cycle((BLACK, GREY, GREEN, PURPLE)), cycle(("o", "s", "D", "^", "v")), strict=False)  # 20 in all
     for value, column, (colour, marker) in zip(mu, exponents.T, looks, strict=False):
         axes.semilogx(p, column, marker=marker, color=colour, label=rf"$\mu = {value:g}$")
     axes.set_xticks(p, [f"{value:g}" for value in p])
@@ -115,7 +117,9 @@ def collapse(phase, curves, theory):
     )
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")
-    looks = zip((ORANGE, GREEN, BLUE, VERMILION), (":", "-.", "--", (0, (4, 2))), strict=True)
+    looks = zip(
+        cycle((ORANGE, GREEN, BLUE, VERMILION)), cycle((":", "-.", "--", (0, (4, 2)), (0, (1, 3)))), strict=False
+    )  # 20 in all
     for (alpha, curve), (colour, dash) in zip(curves.items(), looks, strict=False):
         axes.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\alpha = {alpha:g}$")
     axes.set_xlim(phase[0], phase[-1])

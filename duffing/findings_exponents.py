@@ -9,7 +9,7 @@ from .flow import integrate
 from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from .melnikov import critical_amplitude
 from .remember import remembered
-from .verdicts import CONFIRMED, NOT_CONFIRMED, Finding, decide, finds
+from .verdicts import decide, finds
 
 FINDINGS = {}
 P_ONSET = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)  # the circles of Fig. 3b
@@ -208,31 +208,6 @@ def _lambda_regular():
 def _higher():
     _, ratio = onset_ratios()
     return decide(np.nanmin(ratio) > 1, f"At every exponent; the least ratio is {np.nanmin(ratio):.2f}.")
-
-
-@finds(FINDINGS, "larger-lambda")
-def _larger():
-    curves = [reproduction.exponent_curve(p) for p in (paper.P_SMALL, paper.P_LINEAR)]
-    top = [float(exponent[mu >= 0.1].max()) for mu, exponent in curves]  # no false positives
-    lasts = [lasting_chaos(p)[1] for p in (paper.P_SMALL, paper.P_LINEAR)]
-    text = (
-        f"By the paper's algorithm the largest λ₁ over μ is {top[0]:.3f} at p = 0.1 and {top[1]:.3f} at p = 1: alike within the scatter of single runs. What differs is how long "
-        f"chaos lasts: after a thousand periods {lasts[0].sum()} of {lasts[0].size} and {lasts[1].sum()} of {lasts[1].size} of the chaotic μ are still chaotic."
-    )
-    return decide(top[0] - top[1] > 0.03, text)
-
-
-@finds(FINDINGS, "contradiction")
-def _contradiction():
-    onset, _ = onset_ratios()
-    small, linear = onset[0], onset[P_ONSET.index(1.0)]
-    rank = np.corrcoef(np.argsort(np.argsort(-onset)), np.arange(onset.size))[0, 1]
-    ordered = small > linear
-    text = (
-        f"The size of λ₁ is not a threshold. The numerical onsets themselves, {small:.3f} at p = 0.1 and {linear:.3f} at p = 1, "
-        f"{'have' if ordered else 'do not have'} Melnikov's order (rank correlation of onset with falling p over Fig. 3b: {rank:.2f})."
-    )
-    return Finding(NOT_CONFIRMED if ordered else CONFIRMED, text)
 
 
 @finds(FINDINGS, "algorithm")

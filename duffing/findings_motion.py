@@ -7,7 +7,6 @@ import numpy as np
 from . import paper, reproduction
 from .findings_exponents import exact_exponents
 from .flow import integrate
-from .melnikov import critical_amplitude
 from .verdicts import NOT_CHECKABLE, Finding, decide, finds
 
 FINDINGS = {}
@@ -70,24 +69,6 @@ def _settled():
     settled = np.mean((late.min(axis=0) > 0) | (late.max(axis=0) < 0))
     text = f"From the paper's start the last jump is at t = {last:.0f}. Of {starts} other starts {settled:.0%} are in one well by t = 1200."
     return decide(last < paper.SETTLED, text, limited=settled < 1)
-
-
-@finds(FINDINGS, "transients")
-def _transients():
-    mu_c = critical_amplitude(paper.OSCILLATOR)
-    onset = reproduction.onsets((paper.P_SMALL,))[0]
-    mu = np.linspace(0.05, onset - 0.001, 200)
-    t = paper.OSCILLATOR.period * np.arange(0, 200 * 20 + 1) / 20
-    x = integrate(replace(paper.OSCILLATOR, mu=mu), paper.START, t, method="rk4").states[0]
-    jumps = np.diff(np.sign(x), axis=0) != 0
-    transient = jumps[20 * 10 :].any(axis=0) & ~jumps[-20 * 20 :].any(
-        axis=0
-    )  # jumps after ten periods, none in the end
-    text = (
-        f"From the paper's start {transient[mu > mu_c].mean():.0%} of the forcings between $μ_c$ and the onset still jump between the wells after "
-        f"ten periods and no more in the last twenty of two hundred; below $μ_c$ {transient[mu < mu_c].mean():.0%} do."
-    )
-    return decide(transient[mu > mu_c].any() and not transient[mu < mu_c].any(), text)
 
 
 @finds(FINDINGS, "resonance")

@@ -7,14 +7,14 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from . import checks
-from .compiled import compiled
-from .creep import at_rest
-from .dop853 import STAGES
 from .errors import ConvergenceError, DivergedError
-from .follow import CREEP, DIVERGED, DONE, MOVE, NO_CROSSING, PAST_UNKNOWN, STUCK, TOO_MANY_STEPS
-from .friction_time import ETA2, OMEGA, XI1, M, N, P, W, X, force, variable
+from .follow import RESULTS, follow
+from .friction_time import parameters
+from .judge import DIVERGED, DONE, NO_CROSSING, PAST_UNKNOWN, STUCK, TOO_MANY_STEPS
+from .lanes import WIDTH
 
-_BLOCK = 4  # trajectories a task: they differ in cost, so blocks are small
+_MOST = 256  # members of a part at most
+_MOST_P = 1e4  # beyond it steps across |v| = 1, where the damping sets in like a wall, become endless
 _FAILURES = {
     DIVERGED: (DivergedError, "the solution leaves every bound"),
     TOO_MANY_STEPS: (ConvergenceError, "more than max_steps steps were needed"),
@@ -44,19 +44,42 @@ def tolerances(rtol, atol, max_steps, switch=0.6):
     return checks.positive("rtol", rtol), checks.positive("atol", atol), checks.count("max_steps", max_steps), switch
 
 
-def in_parallel(run, size, threads):
-    """run(slice of the members) on up to `threads` threads (None: the processors) until all are done."""
+def fly(columns, states, times, component, beyond, tangents, control, threads):
+    """Results of `follow` for all members, (9, n - 1, N), and the number of force evaluations (N,).
+
+    columns (6, N), states (2, N), times (N, n); component, beyond, tangents, control : as for `follow`
+    threads : at most so many at once (None: the processors). Raises the named error of the first member that fails.
+    """
+    alpha, p = columns[:2]
+    least = np.finfo(float).eps / control[0]  # w = |v|^p holds v to a relative eps / p
+    allowed = (alpha == 0) | ((p >= least) & (p <= _MOST_P))
+    if not np.all(allowed):
+        bad = p[allowed.argmin()]
+        raise ValueError(f"p = {bad}: must be from {least:.1e} (for rtol = {control[0]}) to {_MOST_P:g}")
     threads = os.cpu_count() if threads is None else checks.count("threads", threads)
-    parts = [slice(i, i + _BLOCK) for i in range(0, size, _BLOCK)]
-    if threads == 1 or len(parts) == 1:
+    size, intervals = times.shape[0], times.shape[1] - 1
+    rows, starts = parameters(columns), np.ascontiguousarray(states.T)
+    results = np.zeros((size, intervals, len(RESULTS)))
+    status, evaluations = np.full(size, DONE), np.zeros(size, dtype=np.int64)
+
+    def run(part):
+        out = results[part], status[part], evaluations[part]
+        follow(rows[part], starts[part], times[part], component, beyond, tangents, control, *out)
+
+    # Parts long enough that lanes seldom idle at their ends, short enough to balance and to interrupt.
+    step = min(max(-(-size // (4 * threads)), min(4 * WIDTH, -(-size // threads))), _MOST)
+    parts = [slice(i, i + step) for i in range(0, size, step)] if intervals > 0 else []
+    if threads == 1 or len(parts) < 2:
         for part in parts:
             run(part)
     else:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(run, parts))
+    _raise_failures(status, columns)
+    return results.transpose(2, 1, 0), evaluations
 
 
-def raise_failures(status, columns):
+def _raise_failures(status, columns):
     """The named error of the first member that failed."""
     failed = np.flatnonzero(status != DONE)
     if failed.size:
@@ -64,19 +87,3 @@ def raise_failures(status, columns):
         names = ("alpha", "p", "mu", "omega", "delta", "gamma")
         member = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, failed[0]], strict=True))
         raise kind(f"{failed.size} of {status.size} members fail; the first, {member}: {reason}")
-
-
-@compiled
-def workspace():
-    """Arrays K, y, new, carry, tally, frame for one trajectory after another."""
-    return np.zeros((STAGES, 8)), np.zeros(8), np.zeros(8), np.zeros(2), np.zeros(3, dtype=np.int64), np.zeros(3)
-
-
-@compiled
-def start(q, x, v, y, carry):
-    """Set y to the state (x, v) with the identity as tangents, and carry to a careful first step."""
-    y[:] = 0.0
-    y[X], y[W], y[XI1], y[ETA2] = x, variable(q, v), 1.0, 1.0
-    carry[MOVE], carry[CREEP] = 0.05 / q[OMEGA], 0.0
-    if q[P] > 1.0 and at_rest(q, x, force(q, x, 0.0), v):
-        q[M], q[N] = 1.0, q[P]  # at rest without force w would stay what it is for ever: take v itself

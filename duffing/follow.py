@@ -1,20 +1,51 @@
-"""Follow one trajectory: explicit steps in friction time, implicit ones while it creeps, and its tangent frame.
+"""Follow trajectories side by side: explicit steps in friction time, each lane its own; creeps in turn.
 
-Which of the two is taken decides what a result costs, not what it is: both keep the same tolerance.
+A block of lanes goes on by one attempted step of all its lanes at a time. Length, error and acceptance are each lane's
+own, by selection instead of branches. What needs more (an arrival, a creep, vectors that collapse) is done for one
+lane between two steps; a lane whose trajectory has ended takes up the next. Whether it steps or creeps decides what a
+result costs, not what it is: both keep the same tolerance.
 """
 
 import math
 
 from .compiled import compiled
-from .creep import SLOW, at_rest, creep
-from .dop853 import advance, error, land
-from .friction_time import (
+from .creep import at_rest, creep
+from .dop853 import advance
+from .frame import log_area, orthonormalise
+from .friction_time import LINEAR, ONE_POWER, TWO_POWERS, force, powers, rate, variable, velocity
+from .judge import ARRIVES, COLLAPSES, CREEPS, DONE, GOING, NO_CROSSING, STUCK, TOO_MANY_STEPS, judge, not_beyond
+from .landing import land
+from .lanes import (
     ALPHA,
+    BLOCK,
+    CREEP,
     ETA1,
     ETA2,
+    EVALUATIONS,
+    EVENT,
+    FAR,
+    GAIN,
+    INTERVAL,
+    LOG1,
+    LOG2,
+    MEMBER,
+    MOVE,
+    NEW,
     OMEGA,
+    PARAMETERS,
+    PASSAGES,
+    REJECTED,
+    SHEAR,
+    SIGN,
+    SLOPES,
+    START,
+    STATE,
+    STEPS,
+    TARGET,
+    WIDTH,
     XI1,
     XI2,
+    H,
     M,
     N,
     P,
@@ -22,175 +53,147 @@ from .friction_time import (
     T,
     W,
     X,
-    force,
-    powers,
-    rate,
-    stiffness,
+    stack,
 )
 
-DONE, DIVERGED, TOO_MANY_STEPS, PAST_UNKNOWN, STUCK, NO_CROSSING, _CREEPS, _MOVES = range(8)
-# What a trajectory carries from one target to the next: explicit step in sigma, creep step in time (0: not creeping).
-MOVE, CREEP = range(2)
-# How it is followed: tolerances, bound on the steps to a target, relaxation times a step above which a creep begins.
-RTOL, ATOL, MAX_STEPS, SWITCH = range(4)
-# What is counted: force evaluations, passages through zero force while creeping, steps.
-EVALUATIONS, PASSAGES, STEPS = range(3)
-# Its tangent frame since the last target: log R11, log R22, R12 / R11.
-LOG1, LOG2, SHEAR = range(3)
+# What is told of each interval: position, velocity, time, friction time, the frame, its first vector's angle, passages.
+RESULTS = AT_X, AT_V, AT_T, AT_S, R11, R22, R12, ANGLE, ANNIHILATIONS = range(9)
 
-_ESCAPED = 1e30  # |x| that only solutions reach which become infinite in finite time
-# An explicit step is at most this part of the linearised motion's fastest time: the tangent's error is then some
-# 1e-9 a step even where the state itself (at rest, creeping) would allow any step.
-_FRESH = 0.7
 _LEAVE = 1 / 3  # a creep ends at this part of the relaxation times a step with which it begins
 _CREEP_STEP = 1 / 16  # of a forcing period at most, so that no passage of the force through zero is overlooked
 
 
 @compiled
-def follow(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new):
-    """Carry y until time (component T) or w (component W) equals the target; carry[MOVE] has the sign of the time.
+def follow(parameters, states, times, component, beyond, tangents, control, results, status, evaluations):
+    """Carry each member from states (N, 2) through the times (N, n), status (N,).
 
-    For a turning point (component W, target 0) limit = (least x, longest time). Returns the status; y[S] and frame go
-    on from what they were, the frame is orthonormal at the end.
+    component : T, or W for the first crossing of v = 0 with x > beyond before the time times[:, 1]
+    control : rtol, atol, bound on the steps of an interval, relaxation times a step above which a creep begins
+    results : (N, n - 1, 9), in the order of RESULTS
     """
-    tally[STEPS] = 0
+    a, eights, kind, waiting = stack(BLOCK), 1 if status.size <= 8 else WIDTH // 8, LINEAR, 0
+    for l in range(WIDTH):
+        a[MEMBER + l] = -1.0
     while True:
-        if carry[CREEP] > 0.0:
-            status = _creep_on(q, y, component, target, limit, carry, tangents, control, frame, tally, new)
-        else:
-            status = _move_on(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new)
-        if status < _CREEPS:
-            orthonormalise(y, tangents, frame, _log_area(y, tangents))
-            return status
+        flying = 0
+        for l in range(8 * eights):
+            if a[MEMBER + l] >= 0.0 and a[EVENT + l] != GOING:
+                _serve(a, l, times, component, beyond, tangents, control, results, status, evaluations)
+            if a[MEMBER + l] < 0.0 and waiting < status.size:
+                kind = max(kind, _board(a, l, waiting, parameters, states))
+                _depart(a, l, 0, times, component, tangents)
+                waiting += 1
+            flying += a[MEMBER + l] >= 0.0
+        if flying == 0:
+            break
+        advance(a, eights, tangents, kind)
+        judge(a, eights, component, tangents, control)
 
 
 @compiled
-def _move_on(q, y, component, target, limit, carry, tangents, control, frame, tally, K, new):
-    """Explicit steps until the target or a creep."""
-    h, gain, rejected = carry[MOVE], 0.0, False
-    rate(q, y, tangents, K, 0)
-    tally[EVALUATIONS] += 1
-    while tally[STEPS] < control[MAX_STEPS]:
-        tally[STEPS] += 1
-        if q[M] == 1.0 and component == T and abs(target - y[T]) < abs(h):
-            carry[MOVE], h = h, target - y[T]
-        advance(q, y, h, tangents, K, new)
-        tally[EVALUATIONS] += 12
-        e = error(q, y, new, h, K, control[RTOL], control[ATOL])
-        if not e <= 1.0:
-            h *= max(0.2, 0.9 * e**-0.125) if e < 1e300 else 0.2
-            rejected = True
-            continue
-        exact = component == T and abs(new[T] - target) <= 4e-16 * max(1.0, abs(target))
-        passed = abs(new[T]) > abs(target) if component == T else y[W] * new[W] < 0
-        if exact or passed:
-            behind, its_rate = new.copy(), K[12].copy()
-            if exact:
-                new[T] = target
-            else:
-                tally[EVALUATIONS] += land(q, y, h, tangents, component, target, K, new)
-            if component == T or new[X] > limit[0]:
-                y[:] = new
-                carry[MOVE] = math.copysign(max(abs(h), abs(carry[MOVE])) if q[M] == 1.0 else abs(h), h)
-                return DONE
-            new[:], K[12] = behind, its_rate  # a turning point that was not asked for: on behind it
-        for d in range(y.size):
-            y[d], K[0, d] = new[d], K[12, d]
-        relaxations = q[ALPHA] * K[0, S] * abs(h)
-        fastest = math.sqrt(abs(stiffness(q, y[X]))) * K[0, T] + q[ALPHA] * K[0, S]
-        h *= min(1.0 if rejected else 6.0, 0.9 * e**-0.125) if e > 0 else 6.0
-        rejected = False
-        h = math.copysign(min(abs(h), _FRESH / fastest), h)
-        if not abs(y[X]) < _ESCAPED:
-            return DIVERGED
-        if component == W and abs(y[T]) > limit[1]:
-            return NO_CROSSING
-        if _collapses(y, tangents):
-            orthonormalise(y, tangents, frame, _log_area(y, tangents))
-            rate(q, y, tangents, K, 0)
-        if q[P] >= 1.0:
-            continue
-        resting = at_rest(q, y[X], q[M] * K[0, W], q[M] * K[0, S] * y[W] / q[N])  # phi = 0 there
-        slow = abs(K[0, W]) < SLOW * q[ALPHA] * K[0, S] * abs(y[W]) / q[N]
-        if h > 0 and ((slow and relaxations > control[SWITCH]) or resting):
-            carry[MOVE], carry[CREEP] = h, max(h * K[0, T], 1e-6 / q[OMEGA])  # the first can underflow
-            return _CREEPS
-        if h < 0:
-            # Backward, the slow branch repels. What stays on it that long has amplified its error beyond use.
-            gain = gain + relaxations if slow else 0.0
-            if gain > max(3.0, math.log(1e-4 / control[RTOL])) or resting:
-                return PAST_UNKNOWN
-    return TOO_MANY_STEPS
+def _board(a, l, member, parameters, states):
+    """Member's parameters, start, identity as tangents and a careful first step; returns the lane's kind."""
+    for k in range(PARAMETERS):
+        a[ALPHA + k * WIDTH + l] = parameters[member, k]
+    x, v = states[member]
+    if a[P + l] > 1.0 and at_rest(a, l, x, force(a, l, x, 0.0), v):
+        a[M + l], a[N + l] = 1.0, a[P + l]  # at rest without force w would stay what it is for ever: take v itself
+    a[X + l], a[W + l] = x, variable(a, l, v)
+    a[XI1 + l], a[ETA1 + l], a[XI2 + l], a[ETA2 + l] = 1.0, 0.0, 0.0, 1.0
+    a[MEMBER + l], a[EVALUATIONS + l], a[MOVE + l], a[CREEP + l] = member, 0.0, 0.05 / a[OMEGA + l], 0.0
+    return TWO_POWERS if a[N + l] != 1.0 else ONE_POWER if a[M + l] != 1.0 else LINEAR
 
 
 @compiled
-def _creep_on(q, y, component, target, limit, carry, tangents, control, frame, tally, new):
-    """Implicit steps until the target, or until a step is short enough for the explicit method."""
-    power = powers(q, y[W])[1]
-    Y = power * y[W]
-    orthonormalise(y, tangents, frame, _log_area(y, tangents))
-    while tally[STEPS] < control[MAX_STEPS]:
-        tally[STEPS] += 1
-        left = (target if component == T else limit[1]) - y[T]
-        h = min(carry[CREEP], left, _CREEP_STEP * 2 * math.pi / q[OMEGA])
-        resting = at_rest(q, y[X], force(q, y[X], y[T]), Y)
-        end, e, passages, evaluations = creep(q, y, Y, h, tangents, control[RTOL], control[ATOL], new)
-        tally[EVALUATIONS] += evaluations
-        if q[P] > 0.5 and resting:
+def _depart(a, l, interval, times, component, tangents):
+    """Make the lane ready for its next interval."""
+    before, after = times[int(a[MEMBER + l]), interval : interval + 2]
+    a[INTERVAL + l], a[START + l], a[TARGET + l] = interval, before, after - before
+    a[SIGN + l] = 1.0 if after > before else -1.0
+    for row in (S, T, LOG1, LOG2, SHEAR, STEPS, PASSAGES, FAR, REJECTED, GAIN):
+        a[row + l] = 0.0
+    a[MOVE + l] = a[SIGN + l] * abs(a[MOVE + l])
+    a[H + l] = not_beyond(a, l, component, 0.0, a[MOVE + l])
+    rate(a, l, tangents)
+    a[EVALUATIONS + l] += 1.0
+
+
+@compiled
+def _serve(a, l, times, component, beyond, tangents, control, results, status, evaluations):
+    """Do what the lane's event asks for, until it is ready for a step again or its trajectory has ended."""
+    event = int(a[EVENT + l])
+    if event == ARRIVES:
+        if not land(a, l, component, tangents):
+            return
+        # A turning point that was not asked for is a state like any other.
+        event = DONE if component == T or a[X + l] > beyond else GOING
+    elif event == COLLAPSES:
+        orthonormalise(a, l, tangents, log_area(a, l, tangents))
+        rate(a, l, tangents)
+        event = GOING
+    elif event == CREEPS:
+        a[CREEP + l] = max(a[MOVE + l] * a[SLOPES + T + l], 1e-6 / a[OMEGA + l])  # the first can underflow
+        event = _creep_on(a, l, component, beyond, tangents, control)
+    while event != GOING:
+        member, interval = int(a[MEMBER + l]), int(a[INTERVAL + l])
+        if event == DONE:
+            orthonormalise(a, l, tangents, log_area(a, l, tangents))
+            _tell(a, l, results[member, interval])
+        if event != DONE or interval + 2 == times.shape[1]:
+            status[member], evaluations[member], a[MEMBER + l] = event, int(a[EVALUATIONS + l]), -1.0
+            return
+        _depart(a, l, interval + 1, times, component, tangents)
+        event = _creep_on(a, l, component, beyond, tangents, control) if a[CREEP + l] > 0.0 else GOING
+
+
+@compiled
+def _tell(a, l, result):
+    """Write the results of an interval."""
+    result[AT_X], result[AT_V], result[AT_T], result[AT_S] = a[X + l], velocity(a, l, a[W + l]), a[T + l], a[S + l]
+    result[R11], result[R22], result[R12] = a[LOG1 + l], a[LOG2 + l], a[SHEAR + l]
+    result[ANGLE], result[ANNIHILATIONS] = math.atan2(a[ETA1 + l], a[XI1 + l]), a[PASSAGES + l]
+
+
+@compiled
+def _creep_on(a, l, component, beyond, tangents, control):
+    """Implicit steps until the target or a failure, or (GOING) until a step is short enough for the explicit method."""
+    rtol, atol, most_steps, switch = control
+    Y = powers(a, l, a[W + l], TWO_POWERS)[1] * a[W + l]
+    orthonormalise(a, l, tangents, log_area(a, l, tangents))
+    while a[STEPS + l] < most_steps:
+        a[STEPS + l] += 1.0
+        left = a[TARGET + l] - a[T + l]
+        h = min(a[CREEP + l], left, _CREEP_STEP * 2 * math.pi / a[OMEGA + l])
+        resting = at_rest(a, l, a[X + l], force(a, l, a[X + l], a[T + l]), Y)
+        end, e, passages, evaluations = creep(a, l, Y, h, tangents, rtol, atol)
+        a[EVALUATIONS + l] += evaluations
+        if a[P + l] > 0.5 and resting:
             passages = 0
-        if passages < 0 or (passages > 0 and q[P] > 0.5):
+        if passages < 0 or (passages > 0 and a[P + l] > 0.5):
             e = math.inf  # a turn, or a passage in finite friction time: for explicit steps to resolve
         if e <= 1.0:
-            if passages > 0 and component == W and new[X] > limit[0]:
+            if passages > 0 and component == W and a[NEW + X + l] > beyond:
                 return STUCK
-            tally[PASSAGES] += passages
-            Y, new[W] = end, math.copysign(abs(end) ** (1 / q[N]), end)
-            relaxed = q[ALPHA] * (new[S] - y[S])
-            y[:] = new
-            orthonormalise(y, tangents, frame, -relaxed)
+            a[PASSAGES + l] += passages
+            Y, a[NEW + W + l] = end, math.copysign(abs(end) ** (1 / a[N + l]), end)
+            relaxed = a[ALPHA + l] * (a[NEW + S + l] - a[S + l])
+            for row in range(0, STATE, WIDTH):
+                a[row + l] = a[NEW + row + l]
+            orthonormalise(a, l, tangents, -relaxed)
             factor = min(4.0, 0.9 * e ** (-1 / 6)) if e > 0 else 4.0
-            carry[CREEP] = h * factor if factor < 1 else max(carry[CREEP], h * factor)  # h may have been cut
+            a[CREEP + l] = h * factor if factor < 1 else max(a[CREEP + l], h * factor)  # h may have been cut
         else:
-            carry[CREEP] = h * (max(0.2, 0.9 * e ** (-1 / 6)) if e < 1e300 else 0.2)
+            a[CREEP + l] = h * (max(0.2, 0.9 * e ** (-1 / 6)) if e < 1e300 else 0.2)
         if h == left and e <= 1.0:
             if component == W:
                 return NO_CROSSING
-            y[T] = target
+            a[T + l] = a[TARGET + l]
             return DONE
-        phi, power = powers(q, y[W])
-        if carry[CREEP] * q[ALPHA] * q[N] * power < _LEAVE * control[SWITCH] * phi and not resting:
-            carry[MOVE], carry[CREEP] = carry[CREEP] / phi * (q[M] + phi), 0.0
-            return _MOVES
+        speed, power = powers(a, l, a[W + l], TWO_POWERS)
+        phi = a[M + l] * speed
+        if a[CREEP + l] * a[ALPHA + l] * a[N + l] * power < _LEAVE * switch * phi and not resting:
+            a[MOVE + l], a[CREEP + l] = a[CREEP + l] / phi * (a[M + l] + phi), 0.0
+            a[H + l] = a[MOVE + l]
+            rate(a, l, tangents)
+            return GOING
     return TOO_MANY_STEPS
-
-
-@compiled
-def _collapses(y, tangents):
-    """Whether the two tangent vectors have come so close to one direction that digits are about to be lost."""
-    if tangents < 2:
-        return False
-    area = abs(y[XI1] * y[ETA2] - y[ETA1] * y[XI2])
-    return area < 0.01 * math.hypot(y[XI1], y[ETA1]) * math.hypot(y[XI2], y[ETA2])
-
-
-@compiled
-def _log_area(y, tangents):
-    """Logarithm of the area that both tangent vectors span, which stays positive."""
-    area = y[XI1] * y[ETA2] - y[ETA1] * y[XI2] if tangents == 2 else 1.0
-    return math.log(area) if area > 0.0 else -math.inf
-
-
-@compiled
-def orthonormalise(y, tangents, frame, log_area):
-    """Gram and Schmidt: the tangent vectors in y become orthonormal, the factor R is multiplied onto the frame's."""
-    if tangents == 0:
-        return
-    r11 = math.hypot(y[XI1], y[ETA1])
-    r12 = (y[XI1] * y[XI2] + y[ETA1] * y[ETA2]) / r11
-    if tangents == 2 and frame[LOG2] > -math.inf:
-        frame[SHEAR] += r12 / r11 * math.exp(frame[LOG2] - frame[LOG1])
-        frame[LOG2] += log_area - math.log(r11)
-    frame[LOG1] += math.log(r11)
-    y[XI1] /= r11
-    y[ETA1] /= r11
-    y[XI2], y[ETA2] = -y[ETA1], y[XI1]

@@ -9,11 +9,10 @@ import math
 import numpy as np
 
 from . import checks
-from .compiled import compiled
 from .errors import DivergedError
-from .flight import in_parallel, members, raise_failures, start, tolerances, workspace
-from .follow import DONE, EVALUATIONS, LOG1, LOG2, MOVE, PASSAGES, SHEAR, follow
-from .friction_time import ETA1, START, XI1, S, T, W, X, parameters, velocity
+from .flight import fly, members, tolerances
+from .follow import ANGLE, ANNIHILATIONS, AT_S, AT_V, AT_X, R11, R12, R22
+from .lanes import T
 from .orbit import Orbit
 
 
@@ -22,7 +21,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
 
     Parameters
     ----------
-    osc : Duffing, a single oscillator or a family of N members, any p > 0
+    osc : Duffing, a single oscillator or a family of N members, 2e-16 / rtol < p <= 1e4
     state : (2,) or (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing or decreasing times, met exactly
     tangents : 0, 1 or 2 tangent vectors; growth and propagators are of each interval. The state does not depend on it.
@@ -50,80 +49,40 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
     control = tolerances(rtol, atol, max_steps, switch)
 
-    n = t.shape[1]
-    q = parameters(columns)
-    states = np.empty((size, 2, n))
-    states[:, :, 0] = state.T
-    frames = np.zeros((size, 3, n - 1))
-    angles = np.zeros((size, n))
-    friction_time = np.zeros((size, n - 1))
-    annihilations = np.zeros((size, n - 1), dtype=np.int64)
-    evaluations, status = np.zeros(size, dtype=np.int64), np.zeros(size, dtype=np.int64)
-
-    def run(part):
-        _orbits(
-            q[part], t[part], tangents, control,
-            states[part], frames[part], angles[part], friction_time[part], annihilations[part],
-            evaluations[part], status[part],
-        )  # inputs and outputs, a line each  # fmt: skip
-
-    in_parallel(run, size, threads)
-    raise_failures(status, columns)
-    frames = np.moveaxis(frames, 0, -1)
+    results, evaluations = fly(columns, state, t, T, -math.inf, tangents, control, threads)
+    states = np.concatenate([state[:, None], results[[AT_X, AT_V]]], axis=1)
     return Orbit(
-        np.moveaxis(states, 0, -1),
-        frames[:tangents],
-        _propagators(frames, angles.T) if tangents == 2 else None,
-        friction_time.T,
-        annihilations.T,
+        states,
+        results[[R11, R22]][:tangents],
+        _propagators(results) if tangents == 2 else None,
+        results[AT_S],
+        results[ANNIHILATIONS].astype(int),
         evaluations,
     )
 
 
-@compiled
-def _orbits(q, times, tangents, control, states, frames, angles, friction_time, annihilations, evaluations, status):
-    K, y, new, carry, tally, frame = workspace()
-    for i in range(len(q)):
-        q[i, START] = times[i, 0]
-        start(q[i], states[i, 0, 0], states[i, 1, 0], y, carry)
-        tally[:] = 0
-        for j in range(times.shape[1] - 1):
-            q[i, START], y[T], y[S], frame[:] = times[i, j], 0.0, 0.0, 0.0
-            span, before = times[i, j + 1] - times[i, j], tally[PASSAGES]
-            carry[MOVE] = math.copysign(carry[MOVE], span)
-            status[i] = follow(q[i], y, T, span, (0.0, 0.0), carry, tangents, control, frame, tally, K, new)
-            frames[i, :, j] = frame
-            if status[i] != DONE:
-                break
-            states[i, 0, j + 1], states[i, 1, j + 1] = y[X], velocity(q[i], y[W])
-            friction_time[i, j], annihilations[i, j] = y[S], tally[PASSAGES] - before
-            angles[i, j + 1] = math.atan2(y[ETA1], y[XI1])
-        evaluations[i] = tally[EVALUATIONS]
-
-
-def _propagators(frames, angles):
+def _propagators(results):
     """Q R Q0^T of each interval, (2, 2, n - 1, N)."""
 
     def rotation(a):
         return np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
 
-    if np.any(frames[LOG1] > 700):
+    if np.any(results[R11] > 700):
         raise DivergedError("the tangent map of an interval overflows: ask for the solution at more times")
-    r11, r22 = np.exp(frames[LOG1]), np.exp(frames[LOG2])
-    upper = np.array([[r11, r11 * frames[SHEAR]], [np.zeros_like(r11), r22]])
+    angles = np.concatenate([np.zeros_like(results[ANGLE, :1]), results[ANGLE]])
+    r11, r22 = np.exp(results[R11]), np.exp(results[R22])
+    upper = np.array([[r11, r11 * results[R12]], [np.zeros_like(r11), r22]])
     return np.einsum("ij...,jk...,lk...->il...", rotation(angles[1:]), upper, rotation(angles[:-1]))
 
 
 def _times(t, size):
-    """Times (N, n), strictly monotone."""
+    """Times (N, n), strictly monotone for each member."""
     t = np.asarray(t)
-    columns = t.T if t.ndim == 2 and t.shape[1] == size and t.shape[0] > 0 else [t] * size
-    return np.array([_monotone(column) for column in columns]).reshape(size, -1)
-
-
-def _monotone(t):
-    if t.ndim == 1 and t.size > 1 and t.dtype.kind in "iuf" and np.all(np.isfinite(t)):
-        if not (np.all(np.diff(t) > 0) or np.all(np.diff(t) < 0)):
-            raise ValueError(f"t = {t}: must be strictly increasing or strictly decreasing")
-        return t.astype(float)
-    return checks.times(t)
+    columns = t.T if t.ndim == 2 and t.shape[1] == size and t.shape[0] > 0 else t[None]
+    if columns.ndim != 2 or columns.shape[1] < 2 or t.dtype.kind not in "iuf" or not np.all(np.isfinite(columns)):
+        checks.times(next((c for c in columns if c.ndim != 1 or not np.all(np.isfinite(c))), columns[0]))
+    steps = np.diff(columns.astype(float), axis=1)
+    bad = ~(np.all(steps > 0, axis=1) | np.all(steps < 0, axis=1))
+    if np.any(bad):
+        raise ValueError(f"t = {columns[bad.argmax()]}: must be strictly increasing or strictly decreasing")
+    return np.array(np.broadcast_to(columns, (size, columns.shape[1])), dtype=float)

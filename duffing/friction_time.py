@@ -21,14 +21,35 @@ and sigma is time: the same code. Other p > 1 gain from the variable w, too: v |
 import math
 
 import numpy as np
+from numba import njit
 
 from .compiled import compiled
+from .elementary import cosine, logarithm, power
+from .lanes import (
+    ALPHA,
+    DAMPER,
+    DELTA,
+    GAMMA,
+    MU,
+    NEW,
+    OMEGA,
+    RATE,
+    SLOPES,
+    SPRING,
+    START,
+    STATE,
+    WIDTH,
+    XI1,
+    M,
+    N,
+    S,
+    T,
+    W,
+    X,
+)
+from .powers import fma
 
-# The parameters of one trajectory, in the order of Duffing.columns(), then m, n and the time where y[T] = 0.
-ALPHA, P, MU, OMEGA, DELTA, GAMMA, M, N, START = range(9)
-# Its state: x, w, time since START, friction time since START, two tangent vectors (xi, eta).
-X, W, T, S, XI1, ETA1, XI2, ETA2 = range(8)
-
+LINEAR, ONE_POWER, TWO_POWERS = range(3)  # kinds of blocks: all lanes have m = n = 1; n = 1; neither
 _SMOOTHNESS = 8  # the least m - 1 for which the pair keeps its order at w = 0
 
 
@@ -41,55 +62,87 @@ def parameters(columns):
     return np.ascontiguousarray(np.concatenate([columns, [m, n, np.zeros_like(m)]]).T)
 
 
-@compiled
-def force(q, x, t):
-    """F(x, t): potential force and forcing, t counted from q[START]."""
-    return -x * (q[DELTA] + q[GAMMA] * x * x) + q[MU] * math.cos(q[OMEGA] * (q[START] + t))
+@njit(forceinline=True)
+def force(a, l, x, t):
+    """F(x, t): potential force and forcing, t counted from START."""
+    turns = a[OMEGA + l] * (a[START + l] + t) * (0.5 / math.pi)
+    return fma(-x, fma(a[GAMMA + l] * x, x, a[DELTA + l]), a[MU + l] * cosine(turns))
 
 
-@compiled
-def stiffness(q, x):
+@njit(forceinline=True)
+def stiffness(a, l, x):
     """dF/dx."""
-    return -q[DELTA] - 3 * q[GAMMA] * x * x
+    return -fma(3.0 * a[GAMMA + l] * x, x, a[DELTA + l])
+
+
+@njit(forceinline=True)
+def powers(a, l, w, kind):
+    """|w|^(m-1) and |w|^(n-1): times w they are v and the damping divided by alpha; phi is m times the first."""
+    if kind == LINEAR:
+        return 1.0, 1.0
+    exponent, mantissa = logarithm(max(abs(w), 2.0**-1022))
+    speed = power(exponent, mantissa, a[M + l] - 1.0)
+    return speed, 1.0 if kind == ONE_POWER else power(exponent, mantissa, a[N + l] - 1.0)
 
 
 @compiled
-def powers(q, w):
-    """phi = dt/ds = m |w|^(m-1) and |w|^(n-1); then v = phi w / m and the damping is alpha |w|^(n-1) w."""
-    if q[M] == 1.0:
-        return 1.0, 1.0 if q[N] == 1.0 else abs(w) ** (q[N] - 1)
-    power = 1.0
-    for _ in range(int(q[N]) // 2):
-        power *= w * w
-    return q[M] * abs(w) ** (q[M] - 1), power
-
-
-@compiled
-def velocity(q, w):
+def velocity(a, l, w):
     """v = sign(w) |w|^m."""
-    return w if q[M] == 1.0 else math.copysign(abs(w) ** q[M], w)
+    return powers(a, l, w, TWO_POWERS)[0] * w
 
 
 @compiled
-def variable(q, v):
+def variable(a, l, v):
     """w = sign(v) |v|^(1/m)."""
-    return v if q[M] == 1.0 else math.copysign(abs(v) ** (1 / q[M]), v)
+    exponent, mantissa = logarithm(max(abs(v), 2.0**-1022))
+    return v if a[M + l] == 1.0 or v == 0.0 else math.copysign(power(exponent, mantissa, 1.0 / a[M + l]), v)
+
+
+@njit(forceinline=True)
+def _slopes(a, l, at, kind):
+    """RATE = d(S, t, x, w)/dsigma of one lane whose state is at the rows `at`."""
+    x, w, m = a[at + X + l], a[at + W + l], a[M + l]
+    speed, damping = powers(a, l, w, kind)
+    phi = m * speed
+    pace = 1.0 if m == 1.0 else 1.0 / (m + phi)
+    dt, friction = phi * pace, a[N + l] * damping * pace
+    a[RATE + S + l] = friction
+    a[RATE + X + l] = dt * speed * w
+    a[RATE + W + l] = fma(-a[ALPHA + l] * damping, w, force(a, l, x, a[at + T + l])) * pace
+    a[RATE + T + l] = dt
+    a[SPRING + l], a[DAMPER + l] = dt * stiffness(a, l, x), a[ALPHA + l] * friction
+
+
+@njit(forceinline=True)
+def _tangent_slopes(a, l, at, xi):
+    """The same of one tangent vector, rows xi and behind; needs the rows SPRING and DAMPER."""
+    eta = xi + WIDTH
+    a[RATE + xi + l] = a[RATE + T + l] * a[at + eta + l]
+    a[RATE + eta + l] = fma(a[SPRING + l], a[at + xi + l], -a[DAMPER + l] * a[at + eta + l])
 
 
 @compiled
-def rate(q, y, tangents, K, row):
-    """K[row] = dy/dsigma, with as many tangent vectors as asked."""
-    phi, power = powers(q, y[W])
-    pace = 1.0 if q[M] == 1.0 else 1 / (q[M] + phi)
-    dt = phi * pace
-    friction = q[N] * power * pace
-    K[row, X] = dt * phi * y[W] / q[M]
-    K[row, W] = (force(q, y[X], y[T]) - q[ALPHA] * power * y[W]) * pace
-    K[row, T] = dt
-    K[row, S] = friction
-    if tangents > 0:
-        spring, damper = dt * stiffness(q, y[X]), q[ALPHA] * friction
-        K[row, XI1] = dt * y[ETA1]
-        K[row, ETA1] = spring * y[XI1] - damper * y[ETA1]
-        K[row, XI2] = dt * y[ETA2]
-        K[row, ETA2] = spring * y[XI2] - damper * y[ETA2]
+def rates(a, eights, tangents, kind):
+    """RATE = the slopes at NEW of the first eights * 8 lanes, with as many tangent vectors as asked."""
+    if kind == LINEAR:
+        for l in range(8 * eights):
+            _slopes(a, l, NEW, LINEAR)
+    elif kind == ONE_POWER:
+        for l in range(8 * eights):
+            _slopes(a, l, NEW, ONE_POWER)
+    else:
+        for l in range(8 * eights):
+            _slopes(a, l, NEW, TWO_POWERS)
+    for vector in range(tangents):
+        for l in range(8 * eights):
+            _tangent_slopes(a, l, NEW, XI1 + 2 * WIDTH * vector)
+
+
+@compiled
+def rate(a, l, tangents):
+    """The slopes of one lane at its state, as first stage of its next step."""
+    _slopes(a, l, 0, TWO_POWERS)
+    for vector in range(tangents):
+        _tangent_slopes(a, l, 0, XI1 + 2 * WIDTH * vector)
+    for row in range(S, STATE, WIDTH):
+        a[SLOPES + row + l] = a[RATE + row + l]

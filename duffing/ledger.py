@@ -2,10 +2,15 @@
 
 from typing import NamedTuple
 
-from . import findings_exponents, findings_motion, findings_theory, paper, tables
+from . import findings_contradiction, findings_exponents, findings_motion, findings_theory, paper, tables
 from .verdicts import VERDICTS, Finding
 
-FINDINGS = {**findings_theory.FINDINGS, **findings_exponents.FINDINGS, **findings_motion.FINDINGS}
+FINDINGS = {
+    **findings_theory.FINDINGS,
+    **findings_exponents.FINDINGS,
+    **findings_motion.FINDINGS,
+    **findings_contradiction.FINDINGS,
+}
 
 
 class Row(NamedTuple):

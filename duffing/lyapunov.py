@@ -6,43 +6,64 @@ import numpy as np
 
 from . import checks
 from .companion import two_trajectory_growth
-from .flow import integrate, stroboscopic_times
-from .sweep import over_blocks
+from .flow import METHODS, integrate, stroboscopic_times
+from .sweep import block_of, over_blocks
+
+# Roughly the seconds that a member takes for a period: by the paper's algorithm, with 500 steps, and in friction time.
+_PAPER, _FRICTION_TIME = 1e-5, 2.5e-4
+# Members that the paper's algorithm advances by one instruction, and in one go.
+_LANES = 8, 64
 
 
 class LyapunovSpectrum(NamedTuple):
     """exponents (k, *family), largest first, per unit time; error (k, *family), one standard error from batch means;
-    history (k, periods, *family), the running estimates after each period."""
+    history (k, periods, *family), the running estimates after each period, or None."""
 
     exponents: np.ndarray
     error: np.ndarray
-    history: np.ndarray
+    history: np.ndarray | None
 
 
 def lyapunov_spectrum(
-    osc, state=(0.45, 0.1), periods=200, transient=40, k=2, method="auto", executor=None, progress=None, **options
-):
+    osc, state=(0.45, 0.1), periods=200, transient=40, k=2, method="auto",
+    executor=None, progress=None, checkpoint=None, history=True, **options,
+):  # the problem, then how it is run  # fmt: skip
     """The k largest Lyapunov exponents of the orbits that start in `state` at t = 0, per unit time.
 
     state : (2,) for all members or (2, *family)
     periods, transient : forcing periods averaged over and, before them, thrown away
     k : 1 (the largest alone, cheaper) or 2
     method, options : as for `duffing.flow.integrate`; method="rk4" with transient=0 is the paper's algorithm
-    executor, progress : as for `duffing.sweep.over_blocks`
+    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`: where it runs, whether it shows how far it is,
+        and the folder from which it can be resumed
+    history : False leaves out the running estimates, which for a large family need the most memory
 
     Returns a LyapunovSpectrum. An exponent is -inf (its error 0) where a creep through zero force has annihilated the
     tangent direction (p <= 1/2). With fewer than eight periods there is no error estimate and `error` is inf.
-    Raises ValueError for invalid input, DivergedError or ConvergenceError as the integrators do.
+    Raises ValueError for invalid input, DivergedError or ConvergenceError as the integrators do, LostWorkerError as
+    `over_blocks` does.
 
     Source: Benettin et al. (1980) for the method; Wolf et al. (1985) as cited by the paper.
     """
+    checks.model(osc)
     if checks.count("k", k) > 2:
         raise ValueError(f"k = {k}: must be 1 or 2, the number of exponents of a plane map")
     checks.count("periods", periods)
     checks.count("transient", transient, least=0)
-    task = {"periods": periods, "transient": transient, "k": k, "method": method, **options}
-    growth = over_blocks(_growth_per_period, osc, checks.state(state, osc.shape), task, executor, progress)
-    return _average(growth.reshape(k, periods, *osc.shape), osc.period)
+    state = checks.state(state, osc.shape)
+    task = {"periods": periods, "transient": transient, "k": k, "method": method, "history": bool(history), **options}
+    run = {"block": block_members(**task), "executor": executor, "progress": progress, "checkpoint": checkpoint}
+    rows = over_blocks(_spectrum_rows, osc, state, task, **run).reshape(k, -1, *osc.shape)
+    return LyapunovSpectrum(rows[:, 0], rows[:, 1], rows[:, 2:] if history else None)
+
+
+def block_members(periods=200, transient=40, method="auto", steps_per_period=500, **_):
+    """Members that `lyapunov_spectrum` with these options takes for a block of work, by what they roughly cost."""
+    rk4 = checks.choice("method", method, METHODS) == "rk4"
+    # A steps_per_period that is no number is refused later, by the integrator.
+    steps = steps_per_period if isinstance(steps_per_period, int) and steps_per_period > 0 else 500
+    seconds = (transient + periods) * (_PAPER * steps / 500 if rk4 else _FRICTION_TIME)
+    return block_of(seconds, _LANES if rk4 else (1,))
 
 
 def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d0=1e-8, steps_per_period=500):
@@ -50,10 +71,11 @@ def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d
 
     Arguments and result as for `lyapunov_spectrum` with k = 1; d0 : the distance of the trajectories (at first in x).
     """
+    checks.model(osc)
     checks.count("transient", transient, least=0)
     checks.positive("d0", d0)
     total = transient + checks.count("periods", periods)
-    growth = two_trajectory_growth(osc, state, total, d0=d0, steps_per_period=steps_per_period)
+    growth = two_trajectory_growth(osc, checks.state(state, osc.shape), total, d0=d0, steps_per_period=steps_per_period)
     return _average(growth[None, transient:].reshape(1, periods, *osc.shape), osc.period)
 
 
@@ -67,13 +89,21 @@ def standard_error(samples):
         return np.full(np.shape(samples)[1:], np.inf)
     length = len(samples) // batches
     # The oldest samples are left out where the length does not divide.
-    means = samples[-batches * length :].reshape(batches, length, *samples.shape[1:]).mean(axis=1)
-    return means.std(axis=0, ddof=1) / np.sqrt(batches)
+    means = _mean(np.moveaxis(samples[-batches * length :].reshape(batches, length, *samples.shape[1:]), 1, 0))
+    return np.sqrt(_mean((means - _mean(means)) ** 2) / (batches - 1))
 
 
-def _growth_per_period(osc, state, periods, transient, k, method, **options):
+def _mean(samples):
+    # One after the other: NumPy's own sum goes by another order for one member than for many.
+    return np.cumsum(samples, axis=0)[-1] / len(samples)
+
+
+def _spectrum_rows(osc, state, periods, transient, k, method, history, **options):
+    """Exponents, errors and, after them, the history: array (k, 2 or 2 + periods, N)."""
     t = stroboscopic_times(osc, transient + periods)
-    return integrate(osc, state, t, tangents=k, method=method, **options).growth[:, transient:]
+    growth = integrate(osc, state, t, tangents=k, method=method, **options).growth[:, transient:]
+    exponents, error, running = _average(growth, osc.period)
+    return np.concatenate([exponents[:, None], error[:, None], *([running] if history else [])], axis=1)
 
 
 def _average(growth, period):

@@ -1,11 +1,15 @@
-"""A Matplotlib figure that shows itself once in a notebook, as SVG with a PNG beside it, in the book's one style."""
+"""A Matplotlib figure that shows itself once in a notebook, as SVG with a PNG and its data beside it, in one style."""
 
 import io
 from functools import wraps
 from pathlib import Path
 
 import matplotlib.style
+import numpy as np
+from matplotlib.container import BarContainer
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import FixedFormatter
 
 STYLE = ["default", Path(__file__).with_name("paper.mplstyle")]
 
@@ -31,8 +35,121 @@ class PageFigure(Figure):
             self.savefig(buffer, format=format, dpi=200, metadata={"Date": None} if format == "svg" else None)
         return buffer.getvalue()
 
+    def table(self):
+        """What is drawn, as text in CSV: panel, series, x, y, value; the axes' labels in lines that begin with #.
+
+        Read from the artists themselves, so that the file and the picture cannot disagree. A series is named by its
+        label; the value is that of a map's cell or a contour's level, empty for curves and dots.
+        """
+        heads, rows = [], []
+        for panel, axes in enumerate(self.axes, 1):
+            if axes.get_label() == "<colorbar>":
+                heads.append(f"# value: {axes.get_ylabel() or axes.get_xlabel()}")
+                continue
+            x = label_along(axes.get_shared_x_axes().get_siblings(axes), "x") or self.get_supxlabel()
+            y = label_along(axes.get_shared_y_axes().get_siblings(axes), "y") or self.get_supylabel()
+            title = axes.get_title().replace("\n", ", ")
+            heads.append(f"# panel {panel}{title and f' ({title})'}: x = {x}, y = {y}")
+            heads += names_of_places(axes, panel)
+            for number, (label, *columns) in enumerate(series(axes), 1):
+                # An inner label of Matplotlib's (_child3) says nothing.
+                name = f"series {number}" if label.startswith("_") else label.replace('"', "'").replace("\n", " ")
+                rows += [
+                    f'{panel},"{name}",' + ",".join(numbers) for numbers in zip(*map(written, columns), strict=True)
+                ]
+        return "\n".join([*heads, "panel,series,x,y,value", *rows]) + "\n"
+
     def _repr_mimebundle_(self, include=None, exclude=None):
         # JupyterLab puts a light ground under transparent pictures that ask for one; the book has a style sheet.
         light = {"needs_background": "light"}
-        data = {"image/svg+xml": self.image("svg").decode(), "image/png": self.image("png")}
+        data = {
+            "image/svg+xml": self.image("svg").decode(),
+            "image/png": self.image("png"),
+            "text/csv": self.table(),
+        }
         return data, dict.fromkeys(data, light)
+
+
+def written(column):
+    """Numbers as text, to ten digits; what is masked or not finite stays empty, as a gap in the drawing does."""
+    values = np.ma.filled(np.ma.asarray(column, dtype=float), np.nan)
+    return [f"{value:.10g}" if np.isfinite(value) else "" for value in values]
+
+
+def names_of_places(axes, panel):
+    """Remarks on an axis whose places bear names in place of numbers: which name stands where."""
+    for axis in (axes.xaxis, axes.yaxis):
+        if isinstance(axis.get_major_formatter(), FixedFormatter):
+            places = zip(axis.get_ticklocs(), axis.get_major_formatter().seq, strict=False)
+            named = [f"{place:g} = {name}" for place, name in places if name != f"{place:g}"]
+            if named:
+                yield f"# panel {panel}, {axis.axis_name}: " + ", ".join(named)
+
+
+def label_along(sharing, axis):
+    """The label that an axis shows, or another that shares its scale."""
+    labels = (getattr(axes, f"{axis}axis").get_label_text() for axes in sharing)
+    return next(filter(None, labels), "")
+
+
+def series(axes):
+    """(label, x, y, value) of every curve, row of dots, bar, map and family of contours in the axes."""
+    # Bars of error are several artists under one label.
+    names = {part: group.get_label() for group in axes.containers for part in flat(group)}
+    for line in axes.lines:
+        x, y = (np.asarray(column, dtype=float) for column in line.get_data(orig=False))
+        # A straight line over the whole panel is kept in the panel's own units along itself.
+        if line.get_transform() == axes.get_yaxis_transform(which="grid"):
+            x = np.array(axes.get_xlim())
+        elif line.get_transform() == axes.get_xaxis_transform(which="grid"):
+            y = np.array(axes.get_ylim())
+        yield str(names.get(line, line.get_label())), x, y, np.full(x.size, np.nan)
+    for group in axes.containers:
+        if isinstance(group, BarContainer):  # the end of each bar, at its middle
+            ends, middles = (np.array([point(bar) for bar in group]) for point in (end, Rectangle.get_center))
+            x, y = (ends[:, 0], middles[:, 1]) if group.orientation == "horizontal" else (middles[:, 0], ends[:, 1])
+            yield str(group.get_label()), x, y, np.full(len(ends), np.nan)
+    for drawn in axes.collections:
+        yield from of_collection(drawn, str(names.get(drawn, drawn.get_label())))
+    for picture in axes.images:
+        value = picture.get_array()
+        left, right, bottom, top = picture.get_extent()
+        value = value if value.ndim == 2 else value @ np.ones(value.shape[2])
+        rows, columns = value.shape
+        first, last = (top, bottom) if picture.origin == "upper" else (bottom, top)
+        x = left + (np.arange(columns) + 0.5) * (right - left) / columns
+        y = first + (np.arange(rows) + 0.5) * (last - first) / rows
+        x, y = np.meshgrid(x, y)
+        yield picture.get_label(), x.ravel(), y.ravel(), value.ravel()
+
+
+def end(bar):
+    """The corner of a bar that is farthest from its foot."""
+    return bar.get_corners()[2]
+
+
+def flat(group):
+    """The artists in a container, however nested."""
+    return [part for item in group for part in (flat(item) if isinstance(item, tuple) else [item]) if part is not None]
+
+
+def of_collection(drawn, label):
+    """The series of one collection: cells of a map at their centres, contours level by level, bands, or dots."""
+    if hasattr(drawn, "get_coordinates"):  # pcolormesh
+        corners = drawn.get_coordinates()
+        value = np.ma.ravel(drawn.get_array())
+        if value.size == (corners.shape[0] - 1) * (corners.shape[1] - 1):
+            corners = (corners[1:, 1:] + corners[1:, :-1] + corners[:-1, 1:] + corners[:-1, :-1]) / 4
+        yield label, corners[..., 0].ravel(), corners[..., 1].ravel(), value
+        return
+    paths = drawn.get_paths()
+    levels = getattr(drawn, "levels", [])
+    if len(levels) or len(drawn.get_offsets()) <= 1:
+        for number, path in enumerate(paths):
+            x, y = path.vertices.T
+            level = levels[number] if number < len(levels) else np.nan
+            yield label, x, y, np.full(x.size, level)
+        return
+    x, y = np.ma.asarray(drawn.get_offsets()).T
+    value = drawn.get_array()
+    yield label, x, y, np.full(x.size, np.nan) if value is None or value.size != x.size else value

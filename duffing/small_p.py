@@ -5,19 +5,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import paper, reproduction
+from . import checks, paper, reproduction
 from .errors import ConvergenceError
 from .flow import integrate
 from .lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from .remember import remembered
+from .saddle import units
 
 TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}  # for curves: an exponent's statistical error is larger by many orders
 
 
-def starts(columns=8, rows=4):
-    """A grid of starts over both wells: array (2, columns * rows) of x in [-1.4, 1.4] and v in [-0.6, 0.6]."""
+def starts(columns=8, rows=4, osc=paper.OSCILLATOR):
+    """A grid of starts over both wells: array (2, columns * rows) of x in [-1.4, 1.4] and v in [-0.6, 0.6].
+
+    That is for delta = -1, gamma = 1; other wells have theirs in proportion.
+    """
+    checks.double_well(osc)
     x, v = np.meshgrid(np.linspace(-1.4, 1.4, columns), np.linspace(-0.6, 0.6, rows))
-    return np.stack([x.ravel(), v.ravel()])
+    return np.stack([x.ravel(), v.ravel()]) * units(osc)[:2, None]
 
 
 @remembered
@@ -32,7 +37,7 @@ def exact_curve(p=paper.P_SMALL, step=0.002, last=0.4, osc=paper.OSCILLATOR):
 def window(columns=8, rows=4, step=0.001, first=0.255, last=0.285, periods=199, osc=paper.OSCILLATOR):
     """lambda_1 over the window of chaos from many starts: (mu (n,), exponents (starts, n))."""
     mu = first + step * np.arange(round((last - first) / step) + 1)
-    state = starts(columns, rows)
+    state = starts(columns, rows, osc)
     family = replace(osc, mu=np.tile(mu, (state.shape[1], 1)))
     state = np.repeat(state[:, :, None], mu.size, axis=2)
     return mu, lyapunov_spectrum(family, state, periods, 40, k=1, **TOLERANCE).exponents[0]
@@ -51,7 +56,7 @@ class Chaos(NamedTuple):
 @remembered
 def chaos(mu=paper.MU_CHAOTIC, columns=8, rows=4, osc=paper.OSCILLATOR):
     """lambda_1 on the chaotic attractor, from the runs of `starts` whose exponent is positive over the paper's time."""
-    state = starts(columns, rows)
+    state = starts(columns, rows, osc)
     family = replace(osc, mu=np.full(state.shape[1], mu))
     exponents = lyapunov_spectrum(family, state, paper.PERIODS - 40, 40, k=1, **TOLERANCE).exponents[0]
     inside = exponents[exponents > 0]

@@ -1,37 +1,138 @@
-"""Families over cores or a cluster: cut into blocks, mapped, and put together again."""
+"""Families over cores or a cluster: cut into blocks, mapped, and put together again.
 
-from dataclasses import fields, replace
+A member's numbers do not depend on its company, so neither do they on the blocks, the workers or the order of arrival.
+"""
+
+import os
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from dataclasses import fields
+from functools import partial
 
 import numpy as np
 
-BLOCK = 256  # members: some milliseconds of work even for the cheapest kernel, far above the cost of a task
+from . import checks
+from .checkpoint import Checkpoint
+from .oscillator import Duffing
+from .progress import reporting
+from .workers import completed, is_executor
+
+BLOCK = 256  # members, where the caller knows nothing better
+# Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
+# enough that an interrupted run, whose blocks under way come to their end, is over within a second.
+BLOCK_SECONDS = 0.2
+# A task is one block, or several in a family so large that there would be more tasks than this: dask's scheduler takes
+# milliseconds for a task, a folder of kept tasks should hold no millions of files.
+TASKS = 4096
+
+# Seconds to wait after an error for what is nearly done, where it would be kept: dask reports an error at once, but
+# has yet to fetch results that were there before it.
+GRACE = 1.0
 
 
-def over_blocks(function, osc, state, options, executor=None, progress=None):
-    """function(osc, state, **options) over a family of N members, block by block.
+def block_of(seconds, groups=(1,)):
+    """Members in a block, where one takes about so many seconds.
 
-    state : (2, N); function returns an array whose last axis is the members' (N long)
-    executor : any concurrent.futures executor; None runs here, on the integrators' own threads
-    progress : called as progress(done, total) with numbers of members after each block; None is silent
-
-    Returns the concatenated array, the same bit for bit whatever the executor.
+    groups : numbers of members, rising, that are advanced side by side: the block is made of the largest that fits
     """
-    if executor is None and progress is None:
-        return function(osc, state, **options)
-    total = state.shape[1]
-    columns = osc.columns()
-    names = [field.name for field in fields(osc)]
-    futures, results = [], []
-    for start in range(0, total, BLOCK):
-        members = slice(start, min(start + BLOCK, total))
-        part = replace(osc, **dict(zip(names, columns[:, members], strict=True)))
-        if executor is None:
-            results.append(function(part, state[:, members], **options))
-            progress(members.stop, total)
-        else:
-            futures.append((members.stop, executor.submit(function, part, state[:, members], **options)))
-    for done, future in futures:
-        results.append(future.result())
-        if progress is not None:
-            progress(done, total)
+    size = min(4096, int(BLOCK_SECONDS / seconds))
+    group = max((g for g in groups if g <= size), default=groups[0])
+    return max(1, size // group) * group
+
+
+def over_blocks(function, osc, state, options, *, block=BLOCK, executor=None, progress=None, checkpoint=None):
+    """function(osc, state, threads=..., **options) over a family of N members, block by block.
+
+    function : returns an array whose last axis is the members' (as many as it is given, whatever their number)
+    state : (2, N)
+    options : passed on; "threads" among them is the number of threads at once here, or in each block of an executor
+    block : members in a block; a matter of speed, as all that follows
+    executor : any concurrent.futures executor (threads, processes, dask's `Client.get_executor()`), or a function
+        without arguments that makes one; None is threads here
+    progress : True, a bar where somebody watches; or called as progress(done, total) with numbers of members
+    checkpoint : a folder for finished tasks, from which the same call goes on where an earlier one ended
+
+    Returns the array over all members, the same bit for bit whatever the block, executor and checkpoint. Memory beyond
+    it and the family is that of the tasks under way, at most `workers.IN_FLIGHT`.
+
+    Raises ValueError for an invalid executor, progress or checkpoint; LostWorkerError when a task goes on killing its
+    worker; and what the function raises. Whatever ends the run, finished tasks stay in the checkpoint.
+    """
+    if executor is not None and not is_executor(executor):
+        raise ValueError(f"executor = {executor!r}: must be None, an executor or a function that makes one")
+    options, total = dict(options), state.shape[1]
+    threads = options.pop("threads", None)
+    here = os.cpu_count() if threads is None else checks.count("threads", threads)
+    checks.count("block", block)
+    # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own.
+    whole = executor is None and progress is None and checkpoint is None and total <= 2 * here * block
+    inside = here if whole or (executor is not None and threads is not None) else 1
+    block = total if whole else block
+    family = _Family(osc, state, block * -(-total // (block * TASKS)))
+    store = None if checkpoint is None else Checkpoint(checkpoint, function, options)
+    # Threads see it and stop between two blocks; processes are ended, and a cluster is let be.
+    stop = threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None
+
+    def arguments(start):
+        return *family.part(start), function, {**options, "threads": inside}, block, stop
+
+    with reporting(progress, total) as report:
+        missing = [s for s in family.starts if store is None or not family.restore(s, store, report)]
+        source = partial(ThreadPoolExecutor, min(here, len(family.starts))) if executor is None else executor
+        try:
+            with closing(completed(source, _run, arguments, missing, 0.0 if store is None else GRACE)) as results:
+                for start, array in results:
+                    if store is not None:
+                        store.keep(store.key(*family.part(start)), array)
+                    family.enter(start, array, report)
+        finally:
+            if stop is not None:
+                stop.set()
+    return family.result
+
+
+class _Family:
+    """The members in tasks, each known by its start, and the results as they come in."""
+
+    def __init__(self, osc, state, size):
+        self.columns, self.state, self.size = checks.model(osc).columns(), state, size
+        # Members with one exponent p side by side: the kernels share its table of powers.
+        self.order = np.argsort(self.columns[1], kind="stable")
+        self.starts = range(0, state.shape[1], size)
+        self.result, self.done = None, 0
+
+    def members(self, start):
+        return self.order[start : start + self.size]
+
+    def part(self, start):
+        """Parameters (6, n) and states (2, n) of the task."""
+        members = self.members(start)
+        return np.ascontiguousarray(self.columns[:, members]), np.ascontiguousarray(self.state[:, members])
+
+    def restore(self, start, store, report):
+        """Whether the task was in the checkpoint, and is now entered."""
+        array = store.load(store.key(*self.part(start)))
+        if array is not None:
+            self.enter(start, array, report)
+        return array is not None
+
+    def enter(self, start, array, report):
+        if self.result is None:
+            self.result = np.empty((*array.shape[:-1], self.state.shape[1]), array.dtype)
+        self.result[..., self.members(start)] = array
+        self.done += array.shape[-1]
+        report(self.done)
+
+
+def _run(columns, state, function, options, block, stop):
+    """What a worker does: one block of its task after the other. What it returns once stopped nobody takes."""
+    names = [field.name for field in fields(Duffing)]
+    results = []
+    for start in range(0, state.shape[1], block):
+        if stop is not None and stop.is_set():
+            return None
+        members = slice(start, start + block)
+        osc = Duffing(**dict(zip(names, columns[:, members], strict=True)))
+        results.append(function(osc, np.ascontiguousarray(state[:, members]), **options))
     return np.concatenate(results, axis=-1)

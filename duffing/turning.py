@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from . import checks
-from .compiled import compiled
-from .flight import in_parallel, members, raise_failures, start, tolerances, workspace
-from .follow import LOG1, LOG2, MOVE, SHEAR, follow
-from .friction_time import ETA1, OMEGA, START, XI1, S, T, W, X, force, parameters
+from .flight import fly, members, tolerances
+from .follow import ANGLE, AT_T, AT_X, R11, R12, R22
+from .lanes import W
+from .oscillator import Duffing
 
 
 class TurningPoint(NamedTuple):
@@ -54,39 +54,17 @@ def to_turning_point(
     if direction not in (1, -1):
         raise ValueError(f"direction = {direction!r}: must be 1 or -1")
     control = tolerances(rtol, atol, max_steps)
-    longest = np.broadcast_to(
-        100 * np.pi / columns[OMEGA] if within is None else checks.positive("within", within), size
-    )
+    longest = np.broadcast_to(100 * np.pi / columns[3] if within is None else checks.positive("within", within), size)
 
-    q = parameters(columns)
-    q[:, START] = t0
-    found, derivative = np.zeros((2, size)), np.zeros((2, 2, size))
-    status = np.zeros(size, dtype=np.int64)
-
-    def run(part):
-        _turning_points(
-            q[part], state[:, part], direction, float(beyond), longest[part], 2 * bool(derivatives), control,
-            found[:, part], derivative[:, :, part], status[part],
-        )  # inputs and outputs, a line each  # fmt: skip
-
-    in_parallel(run, size, threads)
-    raise_failures(status, columns)
-    return TurningPoint(*found, *derivative) if derivatives else TurningPoint(*found)
-
-
-@compiled
-def _turning_points(q, state, direction, beyond, longest, tangents, control, found, derivative, status):
-    K, y, new, carry, tally, frame = workspace()
-    for i in range(len(q)):
-        start(q[i], state[0, i], state[1, i], y, carry)
-        y[T], y[S], frame[:] = 0.0, 0.0, 0.0
-        carry[MOVE] *= direction
-        limit = (beyond, longest[i])
-        status[i] = follow(q[i], y, W, 0.0, limit, carry, tangents, control, frame, tally, K, new)
-        found[0, i], found[1, i] = q[i, START] + y[T], y[X]
-        r11, r22 = math.exp(frame[LOG1]), math.exp(frame[LOG2])
-        # The tangent map is Q R with Q the rotation by the frame's angle: rows of (x, v).
-        a, b = y[XI1], y[ETA1]
-        pull = force(q[i], y[X], y[T])
-        derivative[1, 0, i], derivative[1, 1, i] = a * r11, a * r11 * frame[SHEAR] - b * r22
-        derivative[0, 0, i], derivative[0, 1, i] = -b * r11 / pull, -(b * r11 * frame[SHEAR] + a * r22) / pull
+    times = np.stack([t0, t0 + direction * longest], axis=1)
+    results, _ = fly(columns, state, times, W, float(beyond), 2 * bool(derivatives), control, threads)
+    last = results[:, 0]
+    t, x = t0 + last[AT_T], last[AT_X]
+    if not derivatives:
+        return TurningPoint(t, x)
+    # The tangent map is Q R with Q the rotation by the frame's angle: rows of (x, v).
+    a, b, r11, r22 = np.cos(last[ANGLE]), np.sin(last[ANGLE]), np.exp(last[R11]), np.exp(last[R22])
+    pull = Duffing(*columns).force(x, t)
+    dx = np.array([a * r11, a * r11 * last[R12] - b * r22])
+    dt = -np.array([b * r11, b * r11 * last[R12] + a * r22]) / pull
+    return TurningPoint(t, x, dt, dx)

@@ -3,26 +3,19 @@
 The execution cache compares a chapter's own cells, not the package they call: after an edit in `duffing/` it would go
 on serving old numbers. Its folder is therefore named by a hash of everything a chapter depends on; a new name also
 makes Sphinx read every chapter again, and so run it. An edit of prose, captions and alternative texts included,
-changes no hash and runs nothing.
+changes no hash and runs nothing. What ran while the package was edited is not stored: it belongs to no one state.
 """
 
-import hashlib
 import shutil
-import sys
 from functools import partialmethod
 from pathlib import Path
 
+from fingerprint import key
 from jupyter_cache import get_cache
 from jupyter_cache.cache.main import JupyterCacheBase
+from sphinx.errors import SphinxError
 
-
-def key(root, patterns):
-    """Hash (hex) of the names and contents of all files under root that match a pattern, and of Python's version."""
-    digest = hashlib.sha256(f"{sys.version_info[:3]}".encode())
-    for path in sorted({path for pattern in patterns for path in Path(root).glob(pattern) if path.is_file()}):
-        content = hashlib.sha256(path.read_bytes()).hexdigest()
-        digest.update(f"{path.relative_to(root).as_posix()} {content}\n".encode())
-    return digest.hexdigest()[:16]
+store = JupyterCacheBase.cache_notebook_bundle
 
 
 def set_cache_path(app, config):
@@ -32,6 +25,13 @@ def set_cache_path(app, config):
         if old != current:
             shutil.rmtree(old)
     config.nb_execution_cache_path = str(current)
+
+    def store_if_unchanged(cache, *args, **kwargs):
+        if key(app.srcdir, config.cache_depends_on) != current.name:
+            raise SphinxError("the package or the environment changed while a chapter ran: build again")
+        return store(cache, *args, **kwargs)
+
+    JupyterCacheBase.cache_notebook_bundle = store_if_unchanged
     # Made here, before the chapters are shared out over processes that would race to make it.
     _ = get_cache(current).db
 

@@ -1,8 +1,12 @@
-"""The build ends by saying how long each chapter ran, which of them ran now, and where the book is."""
+"""The build ends by saying how long each chapter ran, which of them ran now, and where the book is.
+
+The table of run times says in words whether a chapter ran to its end: an emoji is a box where its font is missing.
+"""
 
 import time
 from pathlib import Path
 
+from myst_nb.ext import execution_tables
 from myst_nb.sphinx_ import NbMetadataCollector
 from sphinx.util import logging
 
@@ -32,6 +36,7 @@ def report(app, exception):
 
 def setup(app):
     app.started = time.time()
+    execution_tables._key2transform["succeeded"] = lambda succeeded: "complete" if succeeded else "failed"
     app.connect("env-updated", pages_with_table)
     app.connect("build-finished", report, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

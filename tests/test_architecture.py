@@ -15,12 +15,21 @@ ORDER = [
     "compiled", "errors", "checks", "arithmetic", "oscillator", "orbit",
     "melnikov",
     "powers", "forcing", "rk4", "companion",
-    "friction_time", "dop853", "creep", "follow", "flight", "friction", "turning",
+    "elementary", "lanes", "friction_time", "dop853", "creep", "frame", "landing", "judge",
+    "follow", "flight", "friction", "turning",
     "flow",
-    "poincare", "sweep", "lyapunov", "shooting", "saddle", "manifolds", "tangency", "correction", "sticking",
+    "progress", "checkpoint", "workers", "sweep",
+    "poincare", "lyapunov", "cost", "shooting", "saddle", "manifolds", "tangency", "correction", "sticking",
     "precision", "paper", "remember", "reproduction", "small_p",
-    "verdicts", "findings_theory", "findings_exponents", "findings_motion", "tables", "ledger",
-    "page_figure", "figures", "figures_beyond",
+    "diagram",
+    "periodic", "continuation", "bifurcations", "followed", "bifurcation_study", "resonance_study",
+    "trapping", "attractors", "basins", "fates", "uncertainty", "boundary", "contact", "basin_study",
+    "lifetimes", "survival", "crisis", "comparison", "transient_study", "comparison_study",
+    "explorer", "basin_explorer", "widgets", "maps",
+    "verdicts", "findings_theory", "findings_exponents", "findings_motion", "findings_contradiction",
+    "tables", "measured", "ledger",
+    "page_figure", "figures", "figures_beyond", "figures_speed", "figures_bifurcations", "figures_basins",
+    "figures_transients", "figures_maps",
 ]  # a row for each layer  # fmt: skip
 
 
@@ -60,7 +69,9 @@ def test_only_the_figure_modules_draw(name):
 
 def test_figures_compute_nothing():
     assert imports(PACKAGE / "figures.py")[0] == {"page_figure"}
-    assert imports(PACKAGE / "figures_beyond.py")[0] == {"page_figure", "figures"}
+    for path in PACKAGE.glob("figures_*.py"):
+        assert imports(path)[0] == {"page_figure", "figures"}
+    assert imports(PACKAGE / "figures_speed.py")[0] == {"page_figure", "figures"}
 
 
 @pytest.mark.parametrize("name", modules())

@@ -22,6 +22,7 @@ CITATION = re.compile(r"`tests/(test_\w+\.py)::(test_\w+)`")
 sys.path.append(str(BOOK / "extensions"))
 
 import cache_key  # noqa: E402 - its folder is put on the path above
+import fingerprint  # noqa: E402 - as above
 import offline_mathjax  # noqa: E402 - as above
 import paper_numbers  # noqa: E402 - as above
 
@@ -228,13 +229,16 @@ page = Path("index.md")
 edits = [
     lambda: None,
     lambda: page.write_text(page.read_text().replace("Prose", "Other prose").replace("a curve", "two curves")),
+    lambda: Path("second.md").write_text(Path("second.md").read_text().replace("import time", "import time  # now")),
     lambda: Path("duffing/model.py").write_text("x = 2"),
 ]
 for edit in edits:
     edit()
     code = main(["-q", "-b", "html", ".", "_build/html"])
     html, notebook = Path("_build/html/index.html").read_text(), Path("_build/jupyter_execute/index.ipynb").read_text()
-    print(code, re.search(r"ran at (\\d+)", html)[1], re.search(r"ran at (\\d+)", notebook)[1], "two curves" in html)
+    second = Path("_build/html/second.html").read_text()
+    ran = [re.search(r"ran at (\\d+)", text)[1] for text in (html, notebook, second)]
+    print(code, *ran, "two curves" in html)
 """
 PAGE = """---
 file_format: mystnb
@@ -262,21 +266,38 @@ cache_depends_on = ["duffing/**/*.py"]
 """
 
 
-def test_an_edit_of_the_package_runs_a_chapter_again_and_an_edit_of_its_prose_does_not(tmp_path):
+def test_an_edit_of_the_package_runs_all_chapters_of_a_cell_its_own_and_of_prose_none(tmp_path):
     (tmp_path / "duffing").mkdir()
     (tmp_path / "duffing" / "model.py").write_text("x = 1")
     (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n{CACHED}")
-    (tmp_path / "index.md").write_text(PAGE)
+    (tmp_path / "index.md").write_text(PAGE.replace("Prose.", "```{toctree}\nsecond\n```\n\nProse."))
+    (tmp_path / "second.md").write_text(PAGE)
     environment = os.environ | {"IPYTHONDIR": str(tmp_path / "ipython")}
     command = [sys.executable, "-c", REBUILDS]
     run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
     builds = [line.split() for line in run.stdout.splitlines()]
-    assert [code for code, *_ in builds] == ["0"] * 3, run.stderr
-    first, prose, package = (ran for _, ran, _, _ in builds)
-    assert first == prose != package
-    assert [caption for *_, caption in builds] == ["False", "True", "True"]
-    for _, page, download, _ in builds:
+    assert [code for code, *_ in builds] == ["0"] * 4, run.stderr
+    first, prose, cell, package = (ran for _, ran, _, _, _ in builds)
+    assert first == prose == cell != package
+    first, prose, cell, package = (ran for _, _, _, ran, _ in builds)
+    assert first == prose and len({prose, cell, package}) == 3
+    assert [caption for *_, caption in builds] == ["False", "True", "True", "True"]
+    for _, page, download, _, _ in builds:
         assert page == download, "the notebook for download shows another run than the page"
+
+
+def test_what_ran_while_the_package_was_edited_is_not_stored(tmp_path):
+    (tmp_path / "duffing").mkdir()
+    (tmp_path / "duffing" / "model.py").write_text("x = 1")
+    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n{CACHED}")
+    edit = 'from pathlib import Path\nPath("duffing/model.py").write_text("x = 2")\n'
+    (tmp_path / "index.md").write_text(PAGE.replace("import time\n", edit + "import time\n"))
+    command = [sys.executable, "-m", "sphinx", "-q", "-b", "html", ".", "_build/html"]
+    environment = os.environ | {"IPYTHONDIR": str(tmp_path / "ipython")}
+    run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert run.returncode != 0
+    assert "changed while a chapter ran: build again" in run.stderr
+    assert not list(tmp_path.glob("_build/cache/*/executed/**/*.ipynb"))
 
 
 def test_the_key_of_the_execution_cache_changes_with_the_package_and_the_environment_alone(tmp_path):
@@ -296,7 +317,18 @@ def test_the_key_of_the_execution_cache_changes_with_the_package_and_the_environ
     assert len(set(seen)) == len(seen)
     (tmp_path / "chapters").mkdir()
     (tmp_path / "chapters" / "model.md").write_text("prose\n")
+    (package / "__pycache__").mkdir()
+    (package / "__pycache__" / "b.pyc").write_text("compiled")
     assert cache_key.key(tmp_path, depends_on) == seen[-1]
+
+
+def test_the_key_of_the_execution_cache_changes_with_every_package_that_computes(tmp_path, monkeypatch):
+    real = fingerprint.versions()
+    assert {"Python", "numpy", "scipy", "numba", "sympy", "mpmath", "matplotlib"} == set(real)
+    before = cache_key.key(tmp_path, [])
+    for name in real:
+        monkeypatch.setattr(fingerprint, "versions", lambda name=name: real | {name: "0.0"})
+        assert cache_key.key(tmp_path, []) != before
 
 
 def test_the_key_of_the_execution_cache_covers_every_file_of_the_package():

@@ -1,0 +1,15 @@
+// What the theme leaves undone for readers of the book as files, and for those who hear it.
+
+// Opened as files, pages may not read one another: the search lists its finds without the text around them.
+if (location.protocol === "file:") DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
+
+document.addEventListener("DOMContentLoaded", () => {
+  // The book's name above the chapters belongs to a landmark, like them.
+  const sidebar = document.querySelector(".bd-sidebar-primary");
+  sidebar?.setAttribute("role", "navigation");
+  sidebar?.setAttribute("aria-label", "Book");
+
+  // A button that shows words is called by them.
+  for (const button of document.querySelectorAll("button.search-button-field[aria-label]"))
+    button.removeAttribute("aria-label");
+});

@@ -1,0 +1,185 @@
+"""Beside each numbered equation a mark that leads to the test that checks it, and says how its last run ended.
+
+A chapter says it in words: "Eq. {eq}`eq-1` is checked by `tests/test_x.py::test_y`". From such a paragraph each
+equation gets its marks, every cited test becomes a link, and the page of tests shows the source of each, with its
+outcome. The outcomes come from the last run of the tests if that was a run of this very code (run_report.py); else the
+mark says that the test was not run. A numbered equation without a test is a warning, which fails the build.
+"""
+
+import ast
+import re
+import time
+from pathlib import Path
+
+import run_report
+from docutils import nodes
+from sphinx.addnodes import pending_xref
+from sphinx.util import logging
+from sphinx.util.docutils import SphinxDirective
+from sphinx.util.nodes import make_refnode
+
+CITED = re.compile(r"tests/test_\w+\.py::test_\w+")
+# How a mark looks and reads: a sign and a word, since a colour alone says nothing to many readers.
+MARKS = {
+    "passed": ("✓", "tested"),
+    "failed": ("✗", "test fails"),
+    "skipped": ("○", "test skipped"),
+    "not run": ("○", "test not run"),
+}
+logger = logging.getLogger(__name__)
+
+
+def anchor(test):
+    """Id of a test on the page of tests."""
+    return re.sub(r"[^a-z0-9]+", "-", test.removeprefix("tests/").replace(".py", "").lower())
+
+
+def in_words(test):
+    """The name of a test as the sentence that it is."""
+    words = test.rpartition("::test_")[2].replace("_", " ")
+    return words[0].upper() + words[1:]
+
+
+def outcome(app, test):
+    """("passed", number of cases) and the like, for this state of the code."""
+    return app.config.test_run["outcomes"].get(test, ("not run", 0))
+
+
+def is_reference(node):
+    return isinstance(node, pending_xref) and node.get("reftype") == "eq"
+
+
+def is_citation(node):
+    return isinstance(node, nodes.literal) and CITED.fullmatch(node.astext()) is not None
+
+
+def checks(doctree):
+    """Which tests check which equation: dict label -> tests.
+
+    Read from the paragraphs "Eq. ... is checked by ...": a test checks the equations that are named since the last
+    test; "Eq. 8 by A and the signs by B" gives both to 8. "Checked by A" alone speaks of the last equation before it.
+    """
+    found, last = {}, []
+    for block in doctree.findall(lambda node: isinstance(node, nodes.paragraph | nodes.math_block)):
+        if isinstance(block, nodes.math_block):
+            last = [block["label"]] if block.get("label") else last
+            continue
+        text = re.sub(r"\s+", " ", block.astext())
+        if "checked by" not in text.lower():
+            continue
+        equations, answered = last if text.startswith("Checked by") else [], False
+        for node in block.findall(lambda node: is_reference(node) or is_citation(node)):
+            if is_citation(node):
+                answered = True
+                for label in equations:
+                    found.setdefault(label, []).append(node.astext())
+            else:
+                equations, answered = ([] if answered else equations) + [node["reftarget"]], False
+    return found
+
+
+def place_marks(app, doctree):
+    tests = checks(doctree)
+    for equation in list(doctree.findall(nodes.math_block)):
+        label = equation.get("label")
+        if label is None:
+            continue
+        if label not in tests:
+            logger.warning(f"no test is named for the equation {label}", location=equation, type="test_marks")
+            continue
+        marks = nodes.paragraph(classes=["test-marks"])
+        marks += [nodes.inline(test=test, kind="mark") for test in dict.fromkeys(tests[label])]
+        equation.parent.insert(equation.parent.index(equation) + 1, marks)
+    for literal in list(doctree.findall(is_citation)):
+        cited = nodes.inline(test=literal.astext(), kind="citation")
+        literal.replace_self(cited)
+        cited += literal
+
+
+def fill(app, doctree, page):
+    """Turn what was placed into links with the outcome of the last run."""
+    for node in list(doctree.findall(lambda node: isinstance(node, nodes.inline) and "test" in node)):
+        test, kind = node["test"], node["kind"]
+        how, cases = outcome(app, test)
+        sign, word = MARKS[how]
+        if kind == "outcome":
+            count = f", {cases} cases" if cases > 1 else ""
+            node += nodes.Text(f"{sign} {how}{count}")
+            node["classes"] += ["test-outcome", how.replace(" ", "-")]
+        else:
+            shown = nodes.inline(classes=[f"test-{kind}", how.replace(" ", "-")])
+            if kind == "mark":
+                shown += [nodes.Text(f"{sign} {word}"), nodes.inline("", f": {in_words(test)}", classes=["spoken"])]
+            else:
+                shown += [*node.children, nodes.Text(f" {sign}"), nodes.inline("", f" {word}", classes=["spoken"])]
+            title = f"{in_words(test)}: {how}"
+            node.replace_self(make_refnode(app.builder, page, app.config.tests_page, anchor(test), shown, title))
+    for node in list(doctree.findall(lambda node: isinstance(node, nodes.inline) and "summary" in node)):
+        node += nodes.Text(summary(app.config.test_run))
+
+
+def summary(run):
+    """The last run of the tests in one sentence."""
+    if not run["outcomes"]:
+        return (
+            "The tests were not run on this state of the code; after “make test” the next build shows how they ended."
+        )
+    when = time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime(run["when"]))
+    ended = [how for how, _ in run["outcomes"].values()]
+    count = ", ".join(f"{ended.count(how)} {how}" for how in ("passed", "failed", "skipped") if how in ended)
+    used = ", ".join(f"{name} {number}" for name, number in run["versions"].items())
+    return f"Last run of the tests on this very code: {when}, {count}, with {used}."
+
+
+class TestPage(SphinxDirective):
+    """`{test-page}`: all tests, a section for each file, with the outcome of each and the source of those cited."""
+
+    def run(self):
+        root = Path(self.env.srcdir)
+        cited = set()
+        for page in self.env.found_docs:
+            path = Path(self.env.doc2path(page))
+            self.env.note_dependency(str(path))
+            cited |= set(CITED.findall(path.read_text(encoding="utf-8")))
+        result = [nodes.paragraph("", "", nodes.inline(summary=True))]
+        for path in sorted((root / "tests").glob("test_*.py")):
+            self.env.note_dependency(str(path))
+            result.append(self.file(path, path.relative_to(root).as_posix(), cited))
+        return result
+
+    def file(self, path, name, cited):
+        text = path.read_text(encoding="utf-8")
+        tree = ast.parse(text)
+        section = nodes.section("", nodes.title("", "", nodes.literal("", name)), ids=[anchor(name)], names=[name])
+        section += nodes.paragraph("", (ast.get_docstring(tree) or "").partition("\n\n")[0].replace("\n", " "))
+        tests = nodes.bullet_list(bullet="-")
+        section += tests
+        for node in tree.body:
+            test = f"{name}::{getattr(node, 'name', '')}"
+            if not isinstance(node, ast.FunctionDef) or not node.name.startswith("test_"):
+                continue
+            state = nodes.inline(test=test, kind="outcome")
+            item = nodes.list_item("", nodes.paragraph("", "", nodes.Text(f"{in_words(test)} – "), state))
+            item["ids"] = [anchor(test)]
+            if test in cited:
+                first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+                source = "\n".join(text.splitlines()[first - 1 : node.end_lineno])
+                item += nodes.literal_block(source, source, language="python")
+            tests += item
+        return section
+
+
+def load_run(app, config):
+    report = run_report.of_this_state(app.srcdir)
+    config.test_run = {**report, "outcomes": run_report.by_function(report["outcomes"])}
+
+
+def setup(app):
+    app.add_config_value("tests_page", "tests", "env")
+    app.add_config_value("test_run", {}, "html")  # another run: every page is written anew, none is read anew
+    app.add_directive("test-page", TestPage)
+    app.add_css_file("marks.css")
+    app.connect("config-inited", load_run)
+    app.connect("doctree-read", place_marks)
+    app.connect("doctree-resolved", fill)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

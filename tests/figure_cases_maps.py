@@ -1,0 +1,25 @@
+"""The case of the planes of lambda_1 (figures_maps.py): made-up arrays, as in figure_cases_beyond.py."""
+
+import numpy as np
+from figure_cases import Case, to_roundoff
+
+from duffing import figures_maps
+
+
+def _plane():
+    p, mu = np.linspace(0.1, 2.0, 9), np.linspace(0.05, 0.5, 7)
+    crosses = np.array([[0.5, 1.0, 1.5], [0.2, 0.15, 0.1]])
+    return {
+        "p": p,
+        "mu": mu,
+        "exponent": np.add.outer(mu - 0.3, 0.1 * np.sin(3 * p)),
+        "line": 0.4 / (1 + p),
+        "crosses": crosses,
+    }
+
+
+def _draw(d):
+    return figures_maps.exponent_plane(d["p"], d["mu"], d["exponent"], (d["p"], d["line"]), d["crosses"], "exponent")
+
+
+CASES = {"exponent_plane": Case(_plane, _draw, to_roundoff)}

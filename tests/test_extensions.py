@@ -1,0 +1,280 @@
+"""What the local extensions of Sphinx add to a page: marks of the tests, a line on the run, the package's entries."""
+
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import numpy
+import pytest
+
+import duffing
+
+BOOK = Path(__file__).parents[1]
+sys.path.append(str(BOOK / "extensions"))
+
+import api_page  # noqa: E402 - its folder is put on the path above
+import run_report  # noqa: E402 - as above
+
+CONFIG = """
+    extensions = ["myst_nb", "test_marks", "page_footer"]
+    html_theme = "basic"
+    exclude_patterns = ["_build", "tests"]
+    myst_enable_extensions = ["dollarmath"]
+    tests_page = "tests_page"
+    run_times_page = "tests_page"
+"""
+INDEX = """
+    # Book
+
+    ```{toctree}
+    tests_page
+    ```
+
+    $$ a $$ (eq-1)
+
+    $$ b $$ (eq-2)
+
+    Eq. {eq}`eq-1` and {eq}`eq-2` are checked by `tests/test_a.py::test_one_is_one`, its sign by
+    `tests/test_a.py::test_two_is_two`.
+
+    $$ c $$ (eq-own)
+
+    Checked by `tests/test_a.py::test_three_is_three`.
+"""
+TESTS_PAGE = """
+    # All tests
+
+    ```{test-page}
+    ```
+"""
+TESTS = '''
+    """Whole numbers."""
+    import pytest
+
+    @pytest.mark.parametrize("n", [1, 2])
+    def test_one_is_one(n):
+        assert n == n
+
+    def test_two_is_two():
+        assert 2 == 2
+
+    def test_three_is_three():
+        assert 3 == {three}
+
+    def test_nobody_cites_me():
+        pytest.skip("not today")
+'''
+CONFTEST = f"""
+    import sys
+    from pathlib import Path
+    sys.path.append({str(BOOK / "extensions")!r})
+    import run_report
+
+    def pytest_configure(config):
+        if not hasattr(config, "workerinput"):
+            config.pluginmanager.register(run_report.Recorder(Path(__file__).parents[1]))
+"""
+
+
+def write(root, files):
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+
+
+@pytest.fixture
+def book(tmp_path):
+    """A small book with tests of its own."""
+    head = f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n"
+    write(tmp_path, {"index.md": INDEX, "tests_page.md": TESTS_PAGE, "pytest.ini": "[pytest]\n"})
+    write(tmp_path, {"tests/conftest.py": CONFTEST, "tests/test_a.py": TESTS.format(three=3)})
+    (tmp_path / "conf.py").write_text(head + textwrap.dedent(CONFIG))
+    return tmp_path
+
+
+def run_tests(book, *options):
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *options]
+    return subprocess.run(command, cwd=book, capture_output=True, text=True)
+
+
+def build(book):
+    """Build it as the real book is built; returns the HTML of its pages and what Sphinx complained of."""
+    command = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "-n", "--keep-going", ".", "_build/html"]
+    run = subprocess.run(command, cwd=book, capture_output=True, text=True)
+    complaints = [line for line in run.stderr.splitlines() if "[IPKernelApp]" not in line]
+    return {path.stem: path.read_text() for path in (book / "_build" / "html").glob("*.html")}, "\n".join(complaints)
+
+
+def marks_of(html):
+    """What stands beside each equation: a list of (link, text) for each label."""
+    found = {}
+    for label, paragraph in re.findall(r'id="equation-([\w-]+)".*?<p class="test-marks">(.*?)</p>', html, re.DOTALL):
+        links = re.findall(r'href="([^"]+)".*?>(?=<span)(.*?)</a>', paragraph, re.DOTALL)
+        found[label] = [(link, re.sub(r"<[^>]+>", "", text)) for link, text in links]
+    return found
+
+
+def words(found):
+    return {label: [text.partition(":")[0] for _, text in texts] for label, texts in found.items()}
+
+
+def test_a_mark_beside_each_equation_leads_to_its_tests_and_says_how_they_ended(book):
+    write(book, {"tests/test_a.py": TESTS.format(three=4)})
+    assert run_tests(book, "-n2").returncode == 1
+    html, complaints = build(book)
+    assert complaints == ""
+    found = marks_of(html["index"])
+    assert words(found) == {"eq-1": ["✓ tested"] * 2, "eq-2": ["✓ tested"] * 2, "eq-own": ["✗ test fails"]}
+    link, text = found["eq-1"][0]
+    assert text == "✓ tested: One is one"
+    page, anchor = link.split("#")
+    assert page == "tests_page.html" and f'id="{anchor}"' in html["tests_page"]
+    listed = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", html["tests_page"]))
+    assert "One is one – ✓ passed, 2 cases" in listed and "Three is three – ✗ failed" in listed
+    assert "Nobody cites me – ○ skipped" in listed
+    assert "2 passed, 1 failed, 1 skipped, with Python" in listed
+    assert "assert 3 == 4" in listed and "not today" not in listed, "the source of the cited tests, and of those alone"
+
+
+def test_without_a_run_of_the_tests_on_this_very_code_a_mark_says_so(book):
+    not_run = {"eq-1": ["○ test not run"] * 2, "eq-2": ["○ test not run"] * 2, "eq-own": ["○ test not run"]}
+    html, complaints = build(book)
+    assert (words(marks_of(html["index"])), complaints) == (not_run, "")
+    assert run_tests(book).returncode == 0
+    assert words(marks_of(build(book)[0]["index"]))["eq-own"] == ["✓ tested"], "pages are written anew"
+    write(book, {"tests/test_a.py": TESTS.format(three="1 + 2")})
+    html, complaints = build(book)
+    assert (words(marks_of(html["index"])), complaints) == (not_run, "")
+
+
+def test_an_equation_without_a_test_fails_the_build(book):
+    write(book, {"index.md": INDEX + "\n    $$ d $$ (eq-lonely)\n"})
+    assert "no test is named for the equation eq-lonely" in build(book)[1]
+
+
+class Report:
+    """What pytest tells of one phase of a test."""
+
+    def __init__(self, nodeid, outcome, **more):
+        self.nodeid, self.outcome = nodeid, outcome
+        vars(self).update(more)
+
+
+def record(book, *reports):
+    recorder = run_report.Recorder(book)
+    for report in reports:
+        recorder.pytest_runtest_logreport(report)
+    return recorder
+
+
+def test_a_later_run_of_some_tests_adds_to_the_report_of_the_same_code(book):
+    record(book, Report("a", "passed"), Report("b", "failed")).pytest_sessionfinish()
+    record(book, Report("b", "passed")).pytest_sessionfinish()
+    assert run_report.of_this_state(book)["outcomes"] == {"a": "passed", "b": "passed"}
+    write(book, {"tests/test_a.py": "x = 1"})
+    record(book, Report("c", "passed")).pytest_sessionfinish()
+    assert run_report.of_this_state(book)["outcomes"] == {"c": "passed"}
+    assert [path.name for path in (book / "_build").iterdir()] == ["tests.json"]
+
+
+def test_a_test_is_as_good_as_its_worst_phase():
+    phases = {"setup": "passed", "call": "failed", "teardown": "passed"}
+    recorder = record(BOOK, *(Report("a", outcome) for outcome in phases.values()), Report("b", "skipped"))
+    recorder.pytest_runtest_logreport(Report("c", "passed", wasxfail="known"))
+    assert recorder.outcomes == {"a": "failed", "b": "skipped", "c": "skipped"}
+
+
+def test_code_that_was_edited_during_a_run_is_not_reported_as_tested(book):
+    recorder = record(book, Report("a", "passed"))
+    write(book, {"tests/new.py": ""})
+    recorder.pytest_sessionfinish()
+    assert not run_report.place(book).exists()
+
+
+@pytest.mark.parametrize("text", ["", "{", '{"state": 1}'])
+def test_a_report_that_cannot_be_read_counts_as_none(tmp_path, text):
+    write(tmp_path, {"_build/tests.json": text})
+    assert run_report.of_this_state(tmp_path)["outcomes"] == {}
+
+
+def test_the_worst_of_a_tests_cases_counts():
+    outcomes = {"a::b[1]": "passed", "a::b[2]": "failed", "a::c": "skipped", "a::d[x[0]]": "passed"}
+    assert run_report.by_function(outcomes) == {"a::b": ("failed", 2), "a::c": ("skipped", 1), "a::d": ("passed", 1)}
+
+
+def test_a_page_with_cells_says_how_long_it_ran_and_with_which_versions(book):
+    cells = "---\nfile_format: mystnb\nkernelspec: {name: python3, display_name: Python 3, language: python}\n---\n"
+    page = "# Page\n\n```{code-cell} python\nimport time\ntime.sleep(0.3)\n```\n"
+    write(book, {"index.md": INDEX.replace("    tests_page\n", "    tests_page\n    page\n", 1)})
+    (book / "page.md").write_text(cells + page)
+    html, complaints = build(book)
+    assert complaints == ""
+    (line,) = re.findall(r'<p class="page-run">(.*?)</p>', html["page"], re.DOTALL)
+    seconds = re.search(r"ran in (\d+\.\d) s on \d{4}-\d\d-\d\d, with", line)[1]
+    assert 0.3 <= float(seconds) < 60
+    assert f"Python {sys.version.split()[0]}" in line
+    assert f"numpy {numpy.__version__}" in line
+    assert 'href="tests_page.html"' in line
+    assert "page-run" not in html["index"], "no cells, no line"
+
+
+def link(word):
+    return f"<{word}>"
+
+
+def test_a_docstring_in_plain_text_becomes_a_list_of_its_parameters():
+    docstring = """First |v|^p line, x_u - x_s,
+    goes on.
+
+    alpha : the `damping`
+        coefficient
+    t (n,), states (2, n) : times*
+    """
+    lines = [line.removeprefix("    ") for line in docstring.splitlines()]
+    assert api_page.to_rst(lines, link) == [
+        r"First \|v\|^p line, x\_u - x\_s, goes on.",
+        "",
+        "",
+        "- ``alpha``: the <damping> coefficient",
+        r"- ``t (n,), states (2, n)``: times\*",
+        "",
+    ]
+
+
+def test_a_formula_on_lines_of_its_own_stays_as_it_is():
+    rst = api_page.to_rst(["Let", "", "    a = b_*", "", "- not a list"], link)
+    assert rst == ["Let", "", "::", "", "        a = b_*", "", r"\- not a list", ""]
+
+
+def test_a_heading_of_a_docstring_is_shown_without_its_dashes():
+    rst = api_page.to_rst(
+        ["Parameters", "----------", "t : times", "", "Raises", "------", "ValueError : if not"], link
+    )
+    assert rst == ["**Parameters**", "", "", "- ``t``: times", "", "**Raises**", "", "", "- ``ValueError``: if not", ""]
+
+
+def test_names_in_docstrings_lead_to_the_nearest_entry():
+    names = api_page.Names("duffing")
+    assert names.link("integrate", "duffing.rk4") == ":py:obj:`integrate <duffing.rk4.integrate>`"
+    assert names.link("splitting", "duffing.rk4") == ":py:obj:`splitting <duffing.splitting>`"
+    assert names.link("flow", "duffing.rk4") == ":py:mod:`flow <duffing.flow>`"
+    assert names.link("no such name", "duffing.rk4") == "``no such name``"
+
+
+def test_the_page_on_the_package_holds_every_public_name_and_every_module(tmp_path):
+    modules = api_page.module_names("duffing")
+    page = "# The package\n\n```{package-page}\nTheory: melnikov oscillator\n```\n"
+    (tmp_path / "index.md").write_text(page)
+    head = f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n"
+    (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "api_page"]\nhtml_theme = "basic"\n')
+    html, complaints = build(tmp_path)
+    assert complaints == ""
+    for name in duffing.__all__:
+        assert html["index"].count(f'id="duffing.{name}"') == 1, name
+    for name in modules:
+        assert html["index"].count(f'id="module-duffing.{name}"') == 1, name
+    assert html["index"].index("module-duffing.melnikov") < html["index"].index("module-duffing.checks")
+    assert "Alias for field number" not in html["index"]

@@ -1,0 +1,81 @@
+"""The presets of the chapter on the contradiction: small sizes, each number by another way."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from duffing import ConvergenceError, paper, poincare_section, transient_study
+from duffing.survival import exponential
+
+STEP = {"method": "rk4"}
+
+
+def test_a_multiplier_is_one_at_the_fold_and_the_orbits_are_gone_above_it():
+    mu, state = transient_study.folds((0.1, 1.0))
+    h = 1e-5
+    for p, forcing, point in zip((0.1, 1.0), mu, state.T, strict=True):
+        osc = replace(paper.OSCILLATOR, p=p, mu=forcing)
+        around = point[:, None] + h * np.array([[0, 1, -1, 0, 0], [0, 0, 0, 1, -1]])
+        options = {"rtol": 1e-12, "atol": 1e-14}
+        image = poincare_section(replace(osc, mu=np.full(5, forcing)), around, 1, **options)[:, 0]
+        np.testing.assert_allclose(image[:, 0], point, atol=1e-8)
+        derivative = np.array([image[:, 1] - image[:, 2], image[:, 3] - image[:, 4]]).T / (2 * h)
+        assert abs(np.linalg.det(derivative - np.eye(2))) < 1e-4
+        late = [poincare_section(replace(osc, mu=forcing + d), point, 1, transient=250)[:, 0] for d in (-1e-4, 1e-4)]
+        assert np.hypot(*(late[0] - point)) < 0.05 < np.hypot(*(late[1] - point))
+
+
+def test_the_place_of_the_fold_is_passed_in_a_time_of_the_power_minus_one_half():
+    periods = transient_study.ghost((1.6e-4, 4e-5, 1e-5))
+    np.testing.assert_allclose(periods[1:] / periods[:-1], 2.0, rtol=0.12)  # whole periods, and the way there
+    with pytest.raises(ConvergenceError, match=r"^longest = 30: not long enough"):
+        transient_study.ghost((1e-5,), longest=30)
+
+
+def test_rates_of_both_destinations_add_up_to_the_whole():
+    found = transient_study.escape((0.25,), 1.0, 12, 8, periods=2000)
+    share = found.small[0, 0] + found.large[0, 0]
+    assert found.mean[0] == pytest.approx(-1 / np.log1p(-share))
+    assert found.small[0, 0] > 0 < found.large[0, 0]
+    time, settled, large = transient_study.sample(0.25, 1.0, 12, 8, periods=2000)
+    assert found.mean[0] == exponential(time, settled, transient_study.SINCE).mean
+    assert settled.all() and np.all(time[large] > 0)
+
+
+def test_small_orbits_capture_below_the_window_large_ones_above_it():
+    found = transient_study.escape((0.264, 0.283), columns=8, rows=4, periods=300)
+    assert found.small[0, 0] > 0 == found.large[0, 0]
+    assert found.large[0, 1] > 0 == found.small[0, 1]
+
+
+def test_in_the_window_there_is_a_lower_bound_only_and_where_nothing_wanders_there_is_none():
+    found = transient_study.escape((0.1, 0.270), columns=4, rows=3, periods=60)
+    assert np.isnan(found.mean).all() and np.isnan(found.bound[0]) and np.isnan(found.small[0, 0])
+    assert found.bound[1] == pytest.approx(12 * (60 - transient_study.SINCE) / np.log(20))
+
+
+def test_crises_lie_between_a_forcing_without_and_one_with_captures_by_the_large_orbit():
+    at = transient_study.crises((1.0,), points=200, steps=3)[0]
+    found = transient_study.escape((at - 0.003, at + 0.003), 1.0, 16, 8, periods=1000)
+    assert found.large[0, 0] == 0 < found.large[0, 1]
+
+
+def test_edge_falls_with_the_forcing():
+    distance = transient_study.edge((0.268, 0.272, 0.277), points=100, **STEP)
+    assert distance[0] > distance[1] > 0 > distance[2]
+
+
+def test_the_papers_motion_lives_as_long_as_it_jumps():
+    by_step, _ = transient_study.sample_of_the_paper()
+    osc = replace(paper.OSCILLATOR, mu=paper.MU_REGULAR)
+    points = poincare_section(osc, paper.START, paper.PERIODS, **STEP)
+    away = np.flatnonzero(np.hypot(*(points - points[:, -1:])) > 0.1)
+    assert by_step == away[-1] + 2  # point k is number k + 1, and the next one is inside
+
+
+def test_starts_between_the_wells_fill_their_box():
+    starts = transient_study.between(5, 3)
+    assert starts.shape == (2, 15)
+    np.testing.assert_array_equal(starts.min(axis=1), [-1.0, -0.4])
+    np.testing.assert_array_equal(starts.max(axis=1), [1.0, 0.4])
