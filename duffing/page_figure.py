@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.container import BarContainer
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import FixedFormatter
+from matplotlib.ticker import FixedLocator
 
 STYLE = ["default", Path(__file__).with_name("paper.mplstyle")]
 
@@ -79,9 +79,10 @@ def written(column):
 def names_of_places(axes, panel):
     """Remarks on an axis whose places bear names in place of numbers: which name stands where."""
     for axis in (axes.xaxis, axes.yaxis):
-        if isinstance(axis.get_major_formatter(), FixedFormatter):
-            places = zip(axis.get_ticklocs(), axis.get_major_formatter().seq, strict=False)
-            named = [f"{place:g} = {name}" for place, name in places if name != f"{place:g}"]
+        if isinstance(axis.get_major_locator(), FixedLocator):
+            places = axis.get_majorticklocs()
+            shown = zip(places, axis.get_major_formatter().format_ticks(places), strict=True)
+            named = [f"{place:g} = {name}" for place, name in shown if name not in ("", f"{place:g}")]
             if named:
                 yield f"# panel {panel}, {axis.axis_name}: " + ", ".join(named)
 

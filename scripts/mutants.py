@@ -20,7 +20,21 @@ ROOT = Path(__file__).resolve().parents[1]
 PATIENCE = 1200  # seconds; the whole suite takes some minutes, a loop without end for ever
 
 # Tests of the repository and of builds are no tests of the package, and the copy lacks what they look at.
-SUITE = ("tests", *(f"--ignore=tests/{name}" for name in ("browser", "test_book.py", "test_repository.py", "test_reproducible.py", "test_interrupted_build.py", "test_extensions.py", "test_figure_files.py")))
+SUITE = (
+    "tests",
+    *(
+        f"--ignore=tests/{name}"
+        for name in (
+            "browser",
+            "test_book.py",
+            "test_repository.py",
+            "test_reproducible.py",
+            "test_interrupted_build.py",
+            "test_extensions.py",
+            "test_figure_files.py",
+        )
+    ),
+)
 
 
 class Mutant(NamedTuple):
@@ -56,12 +70,21 @@ MUTANTS = (
     Mutant("companion", "the companion is put back on the wrong side", "apart * (d0 / distance)", "-apart * (d0 / distance)"),
     Mutant("companion", "distance not reset", "apart * (d0 / distance)", "apart"),
     Mutant("friction", "rotation of the second frame", "-np.sin(a)], [np.sin(a)", "np.sin(a)], [-np.sin(a)"),
-    Mutant("friction", "shear forgotten in the propagator", "r11 * frames[SHEAR]", "0 * frames[SHEAR]"),
-    Mutant("follow", "two tangents' area", "y[XI1] * y[ETA2] - y[ETA1] * y[XI2] if", "y[XI1] * y[ETA2] + y[ETA1] * y[XI2] if"),
-    Mutant("creep", "sign of the relaxation", "h * q[ALPHA] * _A[i, j] - h * h", "-h * q[ALPHA] * _A[i, j] - h * h"),
+    Mutant("friction", "shear forgotten in the propagator", "r11 * results[R12]", "0 * results[R12]"),
+    Mutant("frame", "two tangents' area", "a[ETA2 + l] - a[ETA1 + l] * a[XI2 + l] if", "a[ETA2 + l] + a[ETA1 + l] * a[XI2 + l] if", ("tests/test_friction.py",)),
+    Mutant("creep", "sign of the relaxation", "h * a[ALPHA + l] * _A[i, j] - h * h", "-h * a[ALPHA + l] * _A[i, j] - h * h"),
     Mutant("creep", "a passage through zero does not annihilate", "return math.inf\n    for g", "return 0.0\n    for g"),
-    Mutant("friction_time", "exponent of phi", "q[M] * abs(w) ** (q[M] - 1), power", "q[M] * abs(w) ** q[M], power"),
-    Mutant("friction_time", "phase of the forcing", "(q[START] + t))", "t)"),
+    Mutant("friction_time", "factor of phi forgotten", "phi = m * speed", "phi = speed"),
+    Mutant("friction_time", "phase of the forcing", "(a[START + l] + t)", "t", ("tests/test_friction.py",)),
+    Mutant("friction_time", "lost |w|", "logarithm(max(abs(w), 2.0**-1022))", "logarithm(max(w, 2.0**-1022))", ("tests/test_friction.py",)),
+    Mutant("elementary", "the whole part of the exponent", "fma(q, e, -whole))", "fma(q, e, whole))"),
+    Mutant("judge", "an error is taken for small", "fits = e <= 1.0", "fits = e <= 1e4", ("tests/test_friction.py",)),
+    Mutant("landing", "the last shift the wrong way", "shift * a[RATE + row + l]", "-shift * a[RATE + row + l]", ("tests/test_friction.py", "tests/test_lanes.py")),
+    Mutant("periodic", "the half map's change of sign", "sign = (-1) ** halves", "sign = 1 ** halves"),
+    Mutant("survival", "those not captured count as captured", "events, exposure = int(np.sum(settled & late))", "events, exposure = int(np.sum(late))"),
+    Mutant("uncertainty", "dimension of the wrong space", "Dimension(float(2 - slope)", "Dimension(float(1 - slope)"),
+    Mutant("crisis", "inside and outside exchanged", "found, **options) > 0\n", "found, **options) < 0\n"),
+    Mutant("comparison", "power instead of force times velocity", "np.abs(v) ** (p + 1), dx", "np.abs(v) ** p, dx"),
     Mutant("turning", "derivative of the time", "-math.inf, within=None", "0.0, within=None"),
     Mutant("flow", "stroboscopic times off by one", "np.arange(checks.count(\"periods\", periods) + 1)", "1 + np.arange(checks.count(\"periods\", periods) + 1)"),
     Mutant("poincare", "points off by one", "orbit.states[:, -periods:]", "orbit.states[:, -periods - 1 : -1]"),
@@ -79,7 +102,7 @@ MUTANTS = (
     Mutant("correction", "the return forgotten", "for y in (leaving, -leaving):", "for y in (leaving,):"),
     Mutant("sticking", "bracket's wrong end", "low, high = np.where(stuck, middle, low), np.where(stuck, high, middle)", "low, high = np.where(stuck, low, middle), np.where(stuck, middle, high)"),
     Mutant("reproduction", "stroboscopic points off by one", "path[:, kept::kept]", "path[:, 1 + kept :: kept]"),
-    Mutant("reproduction", "onset below the threshold", "exponents > paper.THRESHOLD\n    return", "exponents > 0.5 * paper.THRESHOLD\n    return"),
+    Mutant("reproduction", "onset below the threshold", "chaotic = exponents > threshold\n", "chaotic = exponents > 0.5 * threshold\n"),
     Mutant("remember", "results may be written into", "result.flags.writeable = False", "pass"),
     Mutant("figures", "transient and steady colours swapped", "TRANSIENT, STEADY = SKY, VERMILION", "TRANSIENT, STEADY = VERMILION, SKY"),
 )  # a line each  # fmt: skip
@@ -122,9 +145,7 @@ def main(modules):
             path, good = apply(mutant, root)
             own = f"tests/test_{mutant.module}.py"
             files = mutant.tests or ((own,) if (root / own).exists() else ())
-            caught = (first_failure(root, files) if files else None) or first_failure(
-                root, SUITE
-            )
+            caught = (first_failure(root, files) if files else None) or first_failure(root, SUITE)
             path.write_text(good)
             survivors += caught is None
             print(f"{mutant.module:13} {mutant.what:50} {caught or 'SURVIVED'}", flush=True)

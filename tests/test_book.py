@@ -324,7 +324,7 @@ def test_the_key_of_the_execution_cache_changes_with_the_package_and_the_environ
 
 def test_the_key_of_the_execution_cache_changes_with_every_package_that_computes(tmp_path, monkeypatch):
     real = fingerprint.versions()
-    assert {"Python", "numpy", "scipy", "numba", "sympy", "mpmath", "matplotlib"} == set(real)
+    assert {"Python", "numpy", "scipy", "numba", "sympy", "mpmath", "matplotlib", "tqdm"} == set(real)
     before = cache_key.key(tmp_path, [])
     for name in real:
         monkeypatch.setattr(fingerprint, "versions", lambda name=name: real | {name: "0.0"})

@@ -87,7 +87,7 @@ def figure_functions():
                 yield f"{path.stem}.{node.name}"
 
 
-@pytest.mark.parametrize("function", figure_functions())
+@pytest.mark.parametrize("function", list(figure_functions()))
 def test_every_figure_function_is_drawn_by_a_case(function):
     drawn = {ast.unparse(node.func) for file in FILES for node in ast.walk(ast.parse(Path(file.__file__).read_text()))
              if isinstance(node, ast.Call)}  # one set, over files and calls  # fmt: skip

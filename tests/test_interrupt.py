@@ -41,7 +41,7 @@ if __name__ == "__main__":
             run(executor)
     elif kind == "dask":
         from dask.distributed import Client, LocalCluster
-        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster:
             with Client(cluster) as client:
                 run(client.get_executor())
 """

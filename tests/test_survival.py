@@ -87,7 +87,9 @@ def test_a_destination_that_captures_nobody_has_the_rate_zero_below_one_capture(
 
 def test_law_test_accepts_the_law_and_rejects_another():
     """Of samples of the law itself the probability is even between 0 and 1; without new fits it would be too large."""
-    accepted = [law_test(*drawn(60.0, 200, 500, seed), until=500, resamples=20, seed=1000 + seed)[1] for seed in range(400)]
+    accepted = [
+        law_test(*drawn(60.0, 200, 500, seed), until=500, resamples=20, seed=1000 + seed)[1] for seed in range(400)
+    ]
     assert abs(np.mean(accepted) - 0.5) < 4 / np.sqrt(12 * 400)
     fixed = 30 + np.random.default_rng(SEED).integers(0, 30, 300)
     assert law_test(fixed, np.ones(300, dtype=bool), resamples=100)[1] == 0
