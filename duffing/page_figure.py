@@ -2,6 +2,7 @@
 
 import io
 from functools import wraps
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib.style
@@ -11,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedLocator
 
+MANY = 5000
 STYLE = ["default", Path(__file__).with_name("paper.mplstyle")]
 
 
@@ -39,7 +41,8 @@ class PageFigure(Figure):
         """What is drawn, as text in CSV: panel, series, x, y, value; the axes' labels in lines that begin with #.
 
         Read from the artists themselves, so that the file and the picture cannot disagree. A series is named by its
-        label; the value is that of a map's cell or a contour's level, empty for curves and dots.
+        label; the value is that of a map's cell or a contour's level, empty for curves and dots. A map of more than
+        MANY cells takes a line for each of its rows, whose values follow one another apart by blanks.
         """
         heads, rows = [], []
         for panel, axes in enumerate(self.axes, 1):
@@ -54,9 +57,7 @@ class PageFigure(Figure):
             for number, (label, *columns) in enumerate(series(axes), 1):
                 # An inner label of Matplotlib's (_child3) says nothing.
                 name = f"series {number}" if label.startswith("_") else label.replace('"', "'").replace("\n", " ")
-                rows += [
-                    f'{panel},"{name}",' + ",".join(numbers) for numbers in zip(*map(written, columns), strict=True)
-                ]
+                rows += lines(f'{panel},"{name}"', *columns)
         return "\n".join([*heads, "panel,series,x,y,value", *rows]) + "\n"
 
     def _repr_mimebundle_(self, include=None, exclude=None):
@@ -68,6 +69,18 @@ class PageFigure(Figure):
             "text/csv": self.table(),
         }
         return data, dict.fromkeys(data, light)
+
+
+def lines(start, x, y, value):
+    """A series as lines of the table: one for each point, but one for each row of a large map."""
+    if x.size <= MANY or not np.any(np.isfinite(value)):
+        return [start + "," + ",".join(numbers) for numbers in zip(*map(written, (x, y, value)), strict=True)]
+    ends = [0, *(np.flatnonzero(np.diff(y)) + 1), x.size]
+    rows = []
+    for a, b in pairwise(ends):
+        across = f"{x[a]:.10g} to {x[b - 1]:.10g}, {b - a} equally spaced"
+        rows.append(f'{start},"{across}",{y[a]:.10g},"{" ".join(written(value[a:b]))}"')
+    return rows
 
 
 def written(column):

@@ -161,3 +161,13 @@ def test_a_figure_is_offered_under_its_number_with_its_data_the_same_bytes_from_
         assert f'href="../figures/{name}"' in page
     notebook = nbformat.read(tmp_path / "_build" / "jupyter_execute" / "part" / "page.ipynb", as_version=4)
     assert figure_files.outputs(notebook)["fig-4a"]["svg"] == seen[0]["fig4a.svg"]
+
+
+def test_a_large_map_takes_a_line_for_each_of_its_rows():
+    fig = PageFigure()
+    values = np.arange(80 * 100).reshape(80, 100) % 7
+    fig.subplots().imshow(values, origin="lower", extent=(0, 100, 0, 80))
+    rows = list(csv.DictReader(line for line in fig.table().splitlines() if not line.startswith("#")))
+    assert len(rows) == 80
+    assert (rows[1]["x"], rows[1]["y"]) == ("0.5 to 99.5, 100 equally spaced", "1.5")
+    assert [int(number) for number in rows[1]["value"].split()] == values[1].tolist()

@@ -33,7 +33,7 @@ def python_of(path):
 @each_workflow
 def test_a_workflow_runs_the_commands_of_the_local_check_and_no_others(path):
     local = [line for line in (ROOT / ".ci" / "run").read_text().splitlines() if line.startswith("make ")]
-    assert [step["run"] for step in steps(path)[1] if "run" in step] == local == ["make lint test book"]
+    assert [step["run"] for step in steps(path)[1] if "run" in step] == local == ["make lint test book check-book"]
 
 
 def test_workflows_test_every_python_that_the_project_allows_and_publish_from_one():
