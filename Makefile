@@ -37,7 +37,7 @@ record: $(BENCH)/ready
 
 # The built book in Chromium with the network cut.
 check-book: $(READY)
-	$(BIN)/python -m pytest tests/browser
+	$(BIN)/python -m pytest tests/browser --numprocesses=2
 
 # The whole book as one PDF, and as a checksummed zip for a repository of record.
 pdf: book
