@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from duffing import rk4
+from duffing import lyapunov_spectrum, rk4, two_trajectory_exponent
 from duffing.companion import two_trajectory_growth
 from duffing.errors import DivergedError
 from duffing.oscillator import Duffing
@@ -45,3 +45,20 @@ def test_diverging_companions_are_named():
     osc = Duffing(delta=1.0, gamma=-1.0, mu=np.array([0.0, 0.01]))
     with pytest.raises(DivergedError, match="gamma = -1"):
         two_trajectory_growth(osc, (3.0, 0.0), 5)
+
+
+def test_over_a_long_chaotic_run_it_is_the_tangents_exponent_so_the_distance_is_kept_small():
+    """Without the reset the distance would saturate, and the mean growth would be ten times too small."""
+    osc = Duffing(p=1.0, mu=0.25)
+    options = {"periods": 60, "transient": 0, "steps_per_period": 500}
+    tangent = lyapunov_spectrum(osc, k=1, method="rk4", **options).exponents[0]
+    assert tangent > 0.1
+    assert two_trajectory_exponent(osc, d0=1e-8, **options).exponents[0] == pytest.approx(tangent, abs=0.01)
+
+
+def test_the_transient_is_left_out_of_the_mean():
+    osc = Duffing(p=1.0, mu=0.25)
+    growth = two_trajectory_growth(osc, (0.45, 0.1), 15)[:, 0]
+    found = two_trajectory_exponent(osc, (0.45, 0.1), periods=5, transient=10).exponents[0]
+    assert found == pytest.approx(growth[10:].mean() / osc.period, rel=1e-12)
+    assert abs(growth[:5].mean() - growth[10:].mean()) > 0.01

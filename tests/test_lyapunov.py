@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from duffing import Duffing, lyapunov_spectrum, two_trajectory_exponent
+from duffing.flow import integrate
 from duffing.lyapunov import standard_error
 
 
@@ -110,3 +111,17 @@ def test_bad_arguments_are_named(arguments, message):
 def test_bad_arguments_of_the_two_trajectories_are_named(arguments, message):
     with pytest.raises(ValueError, match=message):
         two_trajectory_exponent(Duffing(), **arguments)
+
+
+def test_each_error_belongs_to_its_exponent_also_where_the_frame_comes_out_smallest_first():
+    family = Duffing(alpha=0.1, p=1.0, delta=np.linspace(0.3, 3.0, 16), gamma=0.0)  # foci of all shapes
+    start, periods = (1.0, 0.05), 9
+    t = np.arange(periods + 1) * 2 * np.pi
+    growth = integrate(family, np.tile(np.array(start)[:, None], 16), t, tangents=2, method="rk4").growth
+    spectrum = lyapunov_spectrum(family, start, periods, 0, k=2, method="rk4")
+    swapped = growth[0].mean(axis=0) < growth[1].mean(axis=0)
+    assert swapped.any() and not swapped.all()
+    for member in range(16):
+        rows = growth[::-1, :, member] if swapped[member] else growth[:, :, member]
+        expected = [standard_error(row) / (2 * np.pi) for row in rows]
+        np.testing.assert_allclose(spectrum.error[:, member], expected, rtol=1e-10)
