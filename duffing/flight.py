@@ -67,7 +67,7 @@ def fly(columns, states, times, component, beyond, tangents, control, threads):
         follow(rows[part], starts[part], times[part], component, beyond, tangents, control, *out)
 
     # Parts long enough that lanes seldom idle at their ends, short enough to balance and to interrupt.
-    step = min(max(-(-size // (4 * threads)), min(4 * WIDTH, -(-size // threads))), _MOST)
+    step = min(max(-(-size // (4 * threads)), min(4 * WIDTH, -(-size // threads))), _MOST) if threads > 1 else _MOST
     parts = [slice(i, i + step) for i in range(0, size, step)] if intervals > 0 else []
     if threads == 1 or len(parts) < 2:
         for part in parts:

@@ -87,7 +87,7 @@ def follow(parameters, states, times, component, beyond, tangents, control, resu
         if flying == 0:
             break
         advance(a, eights, tangents, kind)
-        judge(a, eights, component, tangents, control)
+        judge(a, eights, component, tangents, control, kind)
 
 
 @compiled

@@ -40,6 +40,7 @@ from .lanes import (
     STATE,
     WIDTH,
     XI1,
+    XI2,
     M,
     N,
     S,
@@ -101,11 +102,12 @@ def variable(a, l, v):
 @njit(forceinline=True)
 def _slopes(a, l, at, kind):
     """RATE = d(S, t, x, w)/dsigma of one lane whose state is at the rows `at`."""
-    x, w, m = a[at + X + l], a[at + W + l], a[M + l]
+    x, w = a[at + X + l], a[at + W + l]
+    m, n = (1.0, 1.0) if kind == LINEAR else (a[M + l], a[N + l])
     speed, damping = powers(a, l, w, kind)
     phi = m * speed
     pace = 1.0 if m == 1.0 else 1.0 / (m + phi)
-    dt, friction = phi * pace, a[N + l] * damping * pace
+    dt, friction = phi * pace, n * damping * pace
     a[RATE + S + l] = friction
     a[RATE + X + l] = dt * speed * w
     a[RATE + W + l] = fma(-a[ALPHA + l] * damping, w, force(a, l, x, a[at + T + l])) * pace
@@ -133,9 +135,12 @@ def rates(a, eights, tangents, kind):
     else:
         for l in range(8 * eights):
             _slopes(a, l, NEW, TWO_POWERS)
-    for vector in range(tangents):
+    if tangents > 0:
         for l in range(8 * eights):
-            _tangent_slopes(a, l, NEW, XI1 + 2 * WIDTH * vector)
+            _tangent_slopes(a, l, NEW, XI1)
+    if tangents > 1:
+        for l in range(8 * eights):
+            _tangent_slopes(a, l, NEW, XI2)
 
 
 @compiled

@@ -12,7 +12,7 @@ from .compiled import compiled
 from .creep import SLOW, at_rest
 from .dop853 import error
 from .frame import collapses
-from .friction_time import stiffness
+from .friction_time import LINEAR, TWO_POWERS, stiffness
 from .landing import crosses
 from .lanes import (
     ALPHA,
@@ -58,11 +58,11 @@ def not_beyond(a, l, component, t, h):
 
 
 @njit(forceinline=True)
-def _judge_lane(a, l, component, tangents, control):
+def _judge_lane(a, l, component, tangents, control, kind):
     """Accept the step to NEW or not (REJECTED), choose the next one, and say what more there is to do (EVENT)."""
     rtol, atol, most_steps, switch = control
-    h, x, w, t, m, n = a[H + l], a[NEW + X + l], a[NEW + W + l], a[NEW + T + l], a[M + l], a[N + l]
-    e = error(a, l, rtol, atol)
+    h, x, t = a[H + l], a[NEW + X + l], a[NEW + T + l]
+    e = error(a, l, rtol, atol, kind)
     fits = e <= 1.0
     arrives = (fits & crosses(a, l, component)) | (a[FAR + l] != 0.0)
     relaxation = a[ALPHA + l] * a[RATE + S + l]  # per sigma
@@ -78,16 +78,9 @@ def _judge_lane(a, l, component, tangents, control):
     a[STEPS + l] += 1.0
     a[EVALUATIONS + l] += 12.0
 
-    resting = at_rest(a, l, x, m * a[RATE + W + l], m * a[RATE + S + l] * w / n)  # phi = 0 there
-    slow = abs(a[RATE + W + l]) < SLOW * relaxation * abs(w) / n
-    forward, sticky = a[SIGN + l] > 0.0, a[P + l] < 1.0
-    # Backward, the slow branch repels. What stays on it that long has amplified its error beyond use.
-    gain = a[GAIN + l] + relaxation * abs(h) if slow else 0.0
-    a[GAIN + l] = gain if fits else a[GAIN + l]
     event = COLLAPSES if (tangents == 2) & collapses(a, l) else GOING
-    event = CREEPS if sticky & forward & ((slow & (relaxation * abs(h) > switch)) | resting) else event
-    lost = (gain > max(3.0, math.log(1e-4 / rtol))) | resting
-    event = PAST_UNKNOWN if sticky & (a[SIGN + l] < 0.0) & lost else event
+    if kind != LINEAR:  # what befalls only where the damping is stiff
+        event = _stiff_event(a, l, relaxation, rtol, switch, fits, event)
     event = NO_CROSSING if (component == W) & (abs(t) > abs(a[TARGET + l])) else event
     tame = (a[GAMMA + l] == 0.0) & (a[P + l] <= 1.0)
     event = event if abs(x) < (_OVERFLOWS if tame else _ESCAPED) else DIVERGED
@@ -96,13 +89,33 @@ def _judge_lane(a, l, component, tangents, control):
     a[EVENT + l] = ARRIVES if arrives else event
 
 
+@njit(forceinline=True)
+def _stiff_event(a, l, relaxation, rtol, switch, fits, event):
+    """CREEPS or PAST_UNKNOWN where p < 1 and the motion rests or relaxes fast, else the event as it is."""
+    h, x, w, m, n = a[H + l], a[NEW + X + l], a[NEW + W + l], a[M + l], a[N + l]
+    resting = at_rest(a, l, x, m * a[RATE + W + l], m * a[RATE + S + l] * w / n)  # phi = 0 there
+    slow = abs(a[RATE + W + l]) < SLOW * relaxation * abs(w) / n
+    forward, sticky = a[SIGN + l] > 0.0, a[P + l] < 1.0
+    # Backward, the slow branch repels. What stays on it that long has amplified its error beyond use.
+    gain = a[GAIN + l] + relaxation * abs(h) if slow else 0.0
+    a[GAIN + l] = gain if fits else a[GAIN + l]
+    event = CREEPS if sticky & forward & ((slow & (relaxation * abs(h) > switch)) | resting) else event
+    lost = (gain > max(3.0, math.log(1e-4 / rtol))) | resting
+    return PAST_UNKNOWN if sticky & (a[SIGN + l] < 0.0) & lost else event
+
+
 @compiled
-def judge(a, eights, component, tangents, control):
+def judge(a, eights, component, tangents, control, kind):
     """Of each lane: is its step to NEW accepted, which is the next, what more is to do; accepted ends are taken."""
-    for l in range(8 * eights):
-        _judge_lane(a, l, component, tangents, control)
+    if kind == LINEAR:
+        for l in range(8 * eights):
+            _judge_lane(a, l, component, tangents, control, LINEAR)
+    else:
+        for l in range(8 * eights):
+            _judge_lane(a, l, component, tangents, control, TWO_POWERS)
     for row in range(0, STATE - (2 - tangents) * 2 * WIDTH, WIDTH):
         for l in range(8 * eights):
             taken = (a[REJECTED + l] == 0.0) & (a[EVENT + l] != ARRIVES)
-            a[row + l] = a[NEW + row + l] if taken else a[row + l]
-            a[SLOPES + row + l] = a[RATE + row + l] if taken else a[SLOPES + row + l]
+            # Read first, choose then: a choice between two reads is a branch, which vector units do not have.
+            state, new, slope, rate = a[row + l], a[NEW + row + l], a[SLOPES + row + l], a[RATE + row + l]
+            a[row + l], a[SLOPES + row + l] = new if taken else state, rate if taken else slope

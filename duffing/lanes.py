@@ -9,7 +9,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-WIDTH = 16  # lanes: enough to hide the processor's latencies, few enough that a block fits its first-level cache
+WIDTH = 32  # lanes: enough to hide the latencies of the processor, few enough that a block fits its first-level cache
 
 # The state: friction time and time since START, position, w (velocity's substitute), two tangent vectors (xi, eta).
 S, X, W, T, XI1, ETA1, XI2, ETA2, STATE = (WIDTH * row for row in range(9))
