@@ -16,7 +16,7 @@ from .powers import fma
 _TABLE = np.vstack([DOP853.A, DOP853.B])  # the last row leads to the new point
 _LAST = 12
 # The rows' sums, added up as `_combine` does: where sigma is time, the slope of T and S is 1 at every stage.
-_NODES = np.cumsum(_TABLE, axis=1)[:, -1]
+_NODES = np.ascontiguousarray(np.cumsum(_TABLE, axis=1)[:, -1])
 _E3, _E5 = np.ascontiguousarray(DOP853.E3), np.ascontiguousarray(DOP853.E5)
 # A step's error in w alone displaces the point along its own orbit where time hardly runs; friction time and
 # tangents feel it, the state does not, so it counts less.

@@ -22,8 +22,10 @@ def test_a_multiplier_is_one_at_the_fold_and_the_orbits_are_gone_above_it():
         np.testing.assert_allclose(image[:, 0], point, atol=1e-8)
         derivative = np.array([image[:, 1] - image[:, 2], image[:, 3] - image[:, 4]]).T / (2 * h)
         assert abs(np.linalg.det(derivative - np.eye(2))) < 1e-4
-        late = [poincare_section(replace(osc, mu=forcing + d), point, 1, transient=250)[:, 0] for d in (-1e-4, 1e-4)]
-        assert np.hypot(*(late[0] - point)) < 0.05 < np.hypot(*(late[1] - point))
+        # Above the fold the motion may wander and come near again: it does not stay.
+        late = [poincare_section(replace(osc, mu=forcing + d), point, 50, transient=250).T for d in (-1e-4, 1e-4)]
+        away = [np.hypot(*(points - point).T) for points in late]
+        assert away[0].max() < 0.05 < away[1].max()
 
 
 def test_the_place_of_the_fold_is_passed_in_a_time_of_the_power_minus_one_half():
