@@ -11,7 +11,7 @@ import time
 import numpy as np
 from numba import njit
 
-from duffing.powers import evaluate, fma, power
+from duffing.kernels.powers import evaluate, fma, power
 
 from .rewrites import STEPS
 from .sweep import PERIODS, family, kernel

@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 
 from duffing import friction, paper, rk4
-from duffing.precision import WorkPrecision, evaluations_for, reference_state
+from duffing.book.precision import WorkPrecision, evaluations_for, reference_state
 
 from . import peers, rewrites
 from .harness import Result

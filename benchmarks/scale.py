@@ -3,7 +3,7 @@
     python benchmarks/scale.py
 
 Measured on this machine: the time of a block of lambda_1 over amplitudes (the paper's algorithm and friction time), and
-what a task adds on threads, processes and a dask cluster of two worker processes. Computed from it (duffing/cost.py):
+what a task adds on threads, processes and a dask cluster of two worker processes. Computed from it (`cost`):
 from how many members on a thousand dask workers beat this machine's processors, and what a plane of 4096 x 4096 takes.
 """
 
@@ -16,7 +16,7 @@ from multiprocessing import get_context
 from dask.distributed import Client, LocalCluster
 
 from duffing import Duffing
-from duffing.cost import Workers, block_seconds, pays_from, seconds, workers
+from duffing.parallel.cost import Workers, block_seconds, pays_from, seconds, workers
 
 PLANE = 4096 * 4096
 CORES = 1000

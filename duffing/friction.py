@@ -10,9 +10,9 @@ import numpy as np
 
 from . import checks
 from .errors import DivergedError
-from .flight import fly, members, tolerances
-from .follow import ANGLE, ANNIHILATIONS, AT_S, AT_V, AT_X, R11, R12, R22
-from .lanes import T
+from .kernels.flight import fly, members, tolerances
+from .kernels.follow import ANGLE, ANNIHILATIONS, AT_S, AT_V, AT_X, R11, R12, R22
+from .kernels.lanes import T
 from .orbit import Orbit
 
 

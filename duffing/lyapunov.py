@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from . import checks
-from .companion import two_trajectory_growth
 from .flow import METHODS, integrate, stroboscopic_times
+from .kernels.companion import two_trajectory_growth
 from .sweep import block_of, over_blocks
 
 # Roughly the seconds that a member takes for a period: by the paper's algorithm, with 500 steps, and in friction time.

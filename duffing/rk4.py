@@ -16,11 +16,11 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from . import checks
-from .compiled import compiled
 from .errors import DivergedError
-from .forcing import in_blocks
+from .kernels.compiled import compiled
+from .kernels.forcing import in_blocks
+from .kernels.powers import evaluate, fma
 from .orbit import Orbit
-from .powers import evaluate, fma
 
 # Trajectories of a block (its rows stay in the first-level cache) and of an inner loop (the widest vector of doubles).
 LANES, WIDTH = 64, 8

@@ -13,10 +13,10 @@ from functools import partial
 import numpy as np
 
 from . import checks
-from .checkpoint import Checkpoint
 from .oscillator import Duffing
-from .progress import reporting
-from .workers import completed, is_executor
+from .parallel.checkpoint import Checkpoint
+from .parallel.progress import reporting
+from .parallel.workers import completed, is_executor
 
 BLOCK = 256  # members, where the caller knows nothing better
 # Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short

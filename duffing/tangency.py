@@ -10,11 +10,11 @@ import numpy as np
 
 from . import checks
 from .errors import ConvergenceError, NoSaddleOrbitError
+from .kernels.turning import to_turning_point
 from .manifolds import DISTANCE, STABLE, UNSTABLE, launch
 from .melnikov import critical_amplitude, forcing_integral
 from .oscillator import Duffing
 from .saddle import names, saddle_frame, unit_members, units
-from .turning import to_turning_point
 
 _LAUNCHES = 32  # of W^U, all round, to make sure that the splitting found is the greatest
 _ATTEMPTS = 60  # each halves the bracket at least

@@ -18,14 +18,16 @@ PARAMETER = re.compile(r"(\w[^:`]*?) : +(\S.*)")
 SPECIAL = re.compile(r"([\\*|_<>])")
 
 
-def module_names(package):
+def modules_of(package):
+    """Modules of a package and its folders, no two of one name: dict name -> whole name."""
     folder = Path(import_module(package).__file__).parent
-    return sorted(path.stem for path in folder.glob("*.py") if not path.stem.startswith("_"))
+    paths = [path.relative_to(folder).with_suffix("") for path in folder.rglob("*.py") if not path.stem.startswith("_")]
+    return {path.name: ".".join((package, *path.parts)) for path in sorted(paths, key=lambda path: path.name)}
 
 
-def members(package, name):
+def members(module):
     """Public functions and classes that a module defines itself, in the order of the source."""
-    module = import_module(f"{package}.{name}")
+    module = import_module(module)
     found = [
         key
         for key, value in vars(module).items()
@@ -36,8 +38,8 @@ def members(package, name):
     return sorted(found, key=lambda key: inspect.getsourcelines(inspect.unwrap(getattr(module, key)))[1])
 
 
-def first_sentence(package, name):
-    return inspect.getdoc(import_module(f"{package}.{name}")).partition("\n\n")[0].replace("\n", " ")
+def first_sentence(module):
+    return inspect.getdoc(import_module(module)).partition("\n\n")[0].replace("\n", " ")
 
 
 class Names:
@@ -45,11 +47,11 @@ class Names:
 
     def __init__(self, package):
         self.package, self.public = package, import_module(package).__all__
-        self.modules = module_names(package)
+        self.modules = modules_of(package)
         self.entries = {}
-        for name in self.modules:
-            for member in members(package, name):
-                place = package if member in self.public else f"{package}.{name}"
+        for module in self.modules.values():
+            for member in members(module):
+                place = package if member in self.public else module
                 self.entries.setdefault(member, []).append(f"{place}.{member}")
 
     def link(self, word, module):
@@ -59,7 +61,7 @@ class Names:
         for entry in near or entries[: len(entries) == 1]:
             return f":py:obj:`{word} <{entry}>`"
         if word in self.modules:
-            return f":py:mod:`{word} <{self.package}.{word}>`"
+            return f":py:mod:`{word} <{self.modules[word]}>`"
         return f"``{word}``"
 
 
@@ -163,8 +165,8 @@ class PackagePage(SphinxDirective):
         for theme, chosen in themes.items():
             lines += [f"**{theme}**", ""]
             for name in chosen:
-                (line,) = filter(None, to_rst([first_sentence(names.package, name)], lambda word: f"``{word}``"))
-                lines.append(f"* :py:mod:`{name} <{names.package}.{name}>`: {line}")
+                (line,) = filter(None, to_rst([first_sentence(names.modules[name])], lambda word: f"``{word}``"))
+                lines.append(f"* :py:mod:`{name} <{names.modules[name]}>`: {line}")
             lines.append("")
         return nodes.container("", *self.parsed(lines), classes=["package-map"])
 
@@ -178,15 +180,15 @@ class PackagePage(SphinxDirective):
         return self.parsed(lines)
 
     def module(self, name):
-        package, public = self.config.api_package, names_of(self.config.api_package).public
-        offered = [member for member in members(package, name) if member in public]
-        lines = [f".. automodule:: {package}.{name}", "   :members:", "   :member-order: bysource"]
+        names = names_of(self.config.api_package)
+        offered = [member for member in members(names.modules[name]) if member in names.public]
+        lines = [f".. automodule:: {names.modules[name]}", "   :members:", "   :member-order: bysource"]
         lines += [f"   :exclude-members: {', '.join(offered)}"] if offered else []
         content = self.parsed(lines)
         if offered:
-            links = ", ".join(f":py:obj:`{member} <{package}.{member}>`" for member in offered)
+            links = ", ".join(f":py:obj:`{member} <{names.package}.{member}>`" for member in offered)
             content += self.parsed([f"Public, documented above: {links}."])
-        return self.section(name, content, code=True)
+        return self.section(names.modules[name].partition(".")[2], content, code=True)
 
 
 def setup(app):

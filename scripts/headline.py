@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from duffing import Duffing, critical_amplitude, figures_beyond, homoclinic_tangency, reproduction
-from duffing.findings_exponents import P_ONSET
+from duffing import Duffing, critical_amplitude, homoclinic_tangency
+from duffing.book import figures_beyond, reproduction
+from duffing.book.findings_exponents import P_ONSET
 
 p, touching = np.linspace(0.02, 3.1, 300), np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
 figure = figures_beyond.headline(

@@ -6,7 +6,8 @@ Each plane is kept block by block in _build/maps/blocks: an interrupted run goes
 from dataclasses import replace
 from pathlib import Path
 
-from duffing import figures_maps, maps, paper
+from duffing import paper
+from duffing.book import figures_maps, maps
 
 FOLDER = Path("_build/maps")
 PLANES = {

@@ -7,8 +7,9 @@ import sys
 import time
 from pathlib import Path
 
-from duffing import basin_study, figures_basins, paper
-from duffing.basins import KINDS
+from duffing import paper
+from duffing.attraction.basins import KINDS
+from duffing.book import basin_study, figures_basins
 
 SIZE = int(sys.argv[1]) if len(sys.argv) > 1 else 512
 FOLDER = Path(__file__).parents[1] / "_build" / "maps"

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
-from duffing import comparison_study, critical_amplitude, figures_transients, paper, transient_study
+from duffing import critical_amplitude, paper
+from duffing.attraction.survival import exponential, law_test, survival
+from duffing.book import comparison_study, figures_transients, transient_study
 from duffing.oscillator import Duffing
-from duffing.survival import exponential, law_test, survival
 
 MAPS = Path(__file__).parents[1] / "_build" / "maps"
 SINCE = transient_study.SINCE

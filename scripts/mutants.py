@@ -38,7 +38,7 @@ SUITE = (
 
 
 class Mutant(NamedTuple):
-    """An error: in duffing/<module>.py the text `good`, which occurs once, becomes `bad`. tests : files to try first."""
+    """An error: in the package's <module>.py the text `good`, which occurs once, becomes `bad`. tests : files to try first."""
 
     module: str
     what: str
@@ -109,7 +109,7 @@ MUTANTS = (
 
 def apply(mutant, root):
     """Put the error into the copy; returns the file's good text."""
-    path = root / "duffing" / f"{mutant.module}.py"
+    (path,) = (root / "duffing").rglob(f"{mutant.module}.py")
     text = path.read_text()
     if text.count(mutant.good) != 1:
         raise ValueError(f"{mutant.module}: {mutant.good!r} must occur once, not {text.count(mutant.good)} times")

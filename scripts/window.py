@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from duffing import figures_beyond, paper, reproduction, small_p
+from duffing import paper
+from duffing.book import figures_beyond, reproduction, small_p
 
 mu, exponents = small_p.window(columns=20, rows=10)
 mu_paper, paper_exponents = reproduction.exponent_curve(paper.P_SMALL)

@@ -11,8 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from duffing import Duffing, critical_amplitude, figures, homoclinic_orbit, paper, reproduction
-from duffing.findings_exponents import P_ONSET
+from duffing import Duffing, critical_amplitude, figures, homoclinic_orbit, paper
+from duffing.book import reproduction
+from duffing.book.findings_exponents import P_ONSET
 from duffing.manifolds import stable_manifold, unstable_manifold
 
 

@@ -7,10 +7,10 @@ scales and does not notice.
 import numpy as np
 from figure_cases import Case
 
-from duffing import basin_study, figures_basins
-from duffing.basins import KINDS
-from duffing.boundary import neighbourhood
-from duffing.fates import NAMES
+from duffing.attraction.basins import KINDS
+from duffing.attraction.boundary import neighbourhood
+from duffing.attraction.fates import NAMES
+from duffing.book import basin_study, figures_basins
 
 EPS = 10.0 ** np.arange(-4, -1.9, 0.5)
 

@@ -7,7 +7,7 @@ or one quantity in place of another, alters the picture. The quantities themselv
 import numpy as np
 from figure_cases import Case, to_roundoff
 
-from duffing import figures_beyond
+from duffing.book import figures_beyond
 
 P = np.array([0.1, 0.5, 1.0, 2.0])
 MU = np.linspace(0.0, 0.5, 51)

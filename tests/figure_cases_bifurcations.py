@@ -7,10 +7,11 @@ its length, to the width of a line. Located bifurcations do not depend on them.
 import numpy as np
 from figure_cases import Case
 
-from duffing import Duffing, critical_amplitude, figures_bifurcations, homoclinic_tangency
-from duffing import bifurcation_study as study
-from duffing import resonance_study as resonance
-from duffing.followed import amplitude, at_exponent, curves, marks, stroboscopic
+from duffing import Duffing, critical_amplitude, homoclinic_tangency
+from duffing.book import bifurcation_study as study
+from duffing.book import figures_bifurcations
+from duffing.book import resonance_study as resonance
+from duffing.orbits.followed import amplitude, at_exponent, curves, marks, stroboscopic
 
 P = (0.1, 1.0)
 FOUR = (study.IN_WELL, study.LARGE, study.SADDLE, study.THIRD)

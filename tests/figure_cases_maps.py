@@ -3,7 +3,7 @@
 import numpy as np
 from figure_cases import Case, to_roundoff
 
-from duffing import figures_maps
+from duffing.book import figures_maps
 
 
 def _plane():

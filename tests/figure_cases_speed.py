@@ -3,7 +3,7 @@
 import numpy as np
 from figure_cases import Case, to_roundoff
 
-from duffing import figures_speed
+from duffing.book import figures_speed
 
 NAMES = ("one", "two", "three")
 ABSCISSAE = {"log": np.geomspace(1, 100, 4), "linear": np.linspace(0.1, 0.9, 4)}

@@ -8,8 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 from figure_cases import Case, to_roundoff
 
-from duffing import Duffing, comparison_study, critical_amplitude, figures_transients, transient_study
-from duffing.survival import exponential, survival
+from duffing import Duffing, critical_amplitude
+from duffing.attraction.survival import exponential, survival
+from duffing.book import comparison_study, figures_transients, transient_study
 
 FOLD, CRISIS = {1.0: 0.2502}, {1.0: 0.247}  # where the lines are drawn
 

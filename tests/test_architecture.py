@@ -37,8 +37,9 @@ def imports(path):
     """Names of the modules of the package, and of other packages, that a module imports anywhere in its text."""
     inside, outside = set(), set()
     for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.ImportFrom) and node.level == 1:
-            inside |= {node.module} if node.module else {alias.name for alias in node.names}
+        if isinstance(node, ast.ImportFrom) and node.level > 0:
+            last = (node.module or "").rpartition(".")[2]
+            inside |= {last} if last in ORDER else {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             outside.add(node.module.partition(".")[0])
         elif isinstance(node, ast.Import):
@@ -46,44 +47,43 @@ def imports(path):
     return inside, outside
 
 
-def modules():
-    return [path.stem for path in sorted(PACKAGE.glob("*.py")) if path.stem != "__init__"]
+PATHS = [path for path in sorted(PACKAGE.rglob("*.py")) if path.stem != "__init__"]
+MODULES = {path.stem: path for path in PATHS}
 
 
 def test_every_module_has_its_place_in_the_order():
-    assert sorted(modules()) == sorted(ORDER)
+    assert sorted(path.stem for path in PATHS) == sorted(ORDER)
 
 
-@pytest.mark.parametrize("name", modules())
+@pytest.mark.parametrize("name", MODULES)
 def test_a_module_imports_only_modules_left_of_it(name):
-    inside, _ = imports(PACKAGE / f"{name}.py")
+    inside, _ = imports(MODULES[name])
     later = {other for other in inside if ORDER.index(other) >= ORDER.index(name)}
     assert not later
 
 
-@pytest.mark.parametrize("name", modules())
+@pytest.mark.parametrize("name", MODULES)
 def test_only_the_figure_modules_draw(name):
-    _, outside = imports(PACKAGE / f"{name}.py")
+    _, outside = imports(MODULES[name])
     assert ("matplotlib" in outside) == (name == "page_figure")
 
 
 def test_figures_compute_nothing():
-    assert imports(PACKAGE / "figures.py")[0] == {"page_figure"}
-    for path in PACKAGE.glob("figures_*.py"):
-        assert imports(path)[0] == {"page_figure", "figures"}
-    assert imports(PACKAGE / "figures_speed.py")[0] == {"page_figure", "figures"}
+    for name, path in MODULES.items():
+        if name.startswith("figures"):
+            assert imports(path)[0] == ({"page_figure"} if name == "figures" else {"page_figure", "figures"})
 
 
-@pytest.mark.parametrize("name", modules())
+@pytest.mark.parametrize("name", MODULES)
 def test_a_module_holds_one_idea_and_says_which(name):
-    text = (PACKAGE / f"{name}.py").read_text()
+    text = (MODULES[name]).read_text()
     assert ast.get_docstring(ast.parse(text))
     assert text.count("\n") <= 250
 
 
-@pytest.mark.parametrize("name", modules())
+@pytest.mark.parametrize("name", MODULES)
 def test_every_public_function_and_class_is_documented(name):
-    module = importlib.import_module(f"duffing.{name}")
+    module = importlib.import_module(".".join(("duffing", *MODULES[name].relative_to(PACKAGE).with_suffix("").parts)))
     public = [
         value
         for key, value in vars(module).items()

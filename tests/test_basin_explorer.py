@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import Duffing, basin_explorer, poincare_section, widgets
-from duffing.basins import basins
+from duffing import Duffing, poincare_section
+from duffing.attraction.basins import basins
+from duffing.book import basin_explorer, widgets
 
 
 @pytest.fixture(scope="module")

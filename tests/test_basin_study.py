@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import ConvergenceError, Duffing, basin_study, critical_amplitude, homoclinic_tangency
-from duffing.basins import KINDS
-from duffing.contact import first_contact, homoclinic_strips
-from duffing.fates import IRREGULAR, LARGE, LEFT, RIGHT
+from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency
+from duffing.attraction.basins import KINDS
+from duffing.attraction.contact import first_contact, homoclinic_strips
+from duffing.attraction.fates import IRREGULAR, LARGE, LEFT, RIGHT
+from duffing.book import basin_study
 
 RK4 = {"method": "rk4", "steps_per_period": 200}
 
@@ -56,7 +57,7 @@ def test_line_and_random_starts_agree_on_the_dimension():
 
 
 def test_twice_the_steps_and_more_periods_leave_the_dimension():
-    from duffing.boundary import boundary_dimension, crossings, line_of_starts
+    from duffing.attraction.boundary import boundary_dimension, crossings, line_of_starts
 
     found = [
         boundary_dimension(crossings(line_of_starts(linear(1.2), *basin_study.AXIS, n, **options), most=20_000))

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from duffing import Duffing, paper, poincare_section, saddle_orbit
-from duffing import bifurcation_study as study
-from duffing.bifurcations import FLIP, FOLD
-from duffing.followed import amplitude, at_exponent, curves, marks, orbits_at, side_by_side, speed, stroboscopic
-from duffing.periodic import half_return, periodic_orbit, periodic_orbits
+from duffing.book import bifurcation_study as study
+from duffing.orbits.bifurcations import FLIP, FOLD
+from duffing.orbits.followed import amplitude, at_exponent, curves, marks, orbits_at, side_by_side, speed, stroboscopic
+from duffing.orbits.periodic import half_return, periodic_orbit, periodic_orbits
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from duffing import ConvergenceError, Duffing, poincare_section
-from duffing.bifurcations import FLIP, FOLD, bifurcations, loci, orbit_branches, switched
-from duffing.periodic import half_return, periodic_orbit, periodic_orbits
+from duffing.orbits.bifurcations import FLIP, FOLD, bifurcations, loci, orbit_branches, switched
+from duffing.orbits.periodic import half_return, periodic_orbit, periodic_orbits
 
 P = (0.1, 1.0)
 

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, diverges_at, marked, marks, starts
 
-from duffing import DivergedError, Duffing, checkpoint, lyapunov_spectrum, sweep
-from duffing.checkpoint import Checkpoint
+from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
+from duffing.parallel import checkpoint
+from duffing.parallel.checkpoint import Checkpoint
 from duffing.sweep import over_blocks
 
 BLOCKS = 10  # of four members
@@ -196,9 +197,10 @@ def test_an_edit_anywhere_in_the_package_or_another_version_of_what_it_needs_reu
     monkeypatch.setattr(checkpoint, "PACKAGE", copy)
     checkpoint.surroundings.cache_clear()
     assert checkpoint.surroundings() == known[0]
-    (copy / "powers.py").write_text((copy / "powers.py").read_text() + "\n")
+    module = copy / "kernels" / "powers.py"
+    module.write_text(module.read_text() + "\n")
     assert_changed()
-    (copy / "powers.py").rename(copy / "potencies.py")
+    module.rename(module.with_name("potencies.py"))
     assert_changed()
     version = checkpoint.version
     for name in ("numba", "numpy", "scipy"):

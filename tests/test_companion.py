@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from duffing import lyapunov_spectrum, rk4, two_trajectory_exponent
-from duffing.companion import two_trajectory_growth
 from duffing.errors import DivergedError
+from duffing.kernels.companion import two_trajectory_growth
 from duffing.oscillator import Duffing
 
 START = (0.45, 0.1)

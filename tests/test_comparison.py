@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from duffing import Duffing, comparison_study, critical_amplitude, lyapunov_spectrum, small_p
-from duffing.comparison import dissipated_energy, mean_ratio, wandering
-from duffing.transient_study import between
+from duffing import Duffing, critical_amplitude, lyapunov_spectrum
+from duffing.book import comparison_study, small_p
+from duffing.book.comparison import dissipated_energy, mean_ratio, wandering
+from duffing.book.transient_study import between
 
 STEP = {"method": "rk4"}
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from duffing import ConvergenceError
-from duffing.continuation import BOUND, CLOSED, LOST, STEPS, correct, follow_branches
+from duffing.orbits.continuation import BOUND, CLOSED, LOST, STEPS, correct, follow_branches
 
 
 def circles(radius):

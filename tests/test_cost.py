@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from duffing import Duffing, sweep
-from duffing.cost import Workers, block_seconds, pays_from, seconds, workers
+from duffing.parallel.cost import Workers, block_seconds, pays_from, seconds, workers
 
 
 def played(blocks, block, by):

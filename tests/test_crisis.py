@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import ConvergenceError, Duffing, saddle_orbit, small_p, trajectory
-from duffing.crisis import crisis, edge_distance, large_saddle, saddles
-from duffing.lifetimes import both_wells, lifetimes
+from duffing import ConvergenceError, Duffing, saddle_orbit, trajectory
+from duffing.attraction.crisis import crisis, edge_distance, large_saddle, saddles
+from duffing.attraction.lifetimes import both_wells, lifetimes
+from duffing.book import small_p
 
 LINEAR = Duffing(p=1.0, mu=np.array([0.242, 0.250]))  # one before the crisis at p = 1, one after it
 STEP = {"method": "rk4"}

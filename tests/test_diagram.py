@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from duffing import Duffing, poincare_section
-from duffing.diagram import bifurcation_diagram
+from duffing.orbits.diagram import bifurcation_diagram
 
 LINEAR = Duffing(alpha=1.0, p=1.0, delta=3.0, gamma=0.0)  # x'' + x' + 3 x = mu cos t
 STARTS = np.array([[0.5, -1.0, 1.2], [0.1, 0.0, -0.4]])

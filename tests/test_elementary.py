@@ -4,8 +4,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from duffing.compiled import compiled
-from duffing.elementary import cosine, logarithm, power
+from duffing.kernels.compiled import compiled
+from duffing.kernels.elementary import cosine, logarithm, power
 
 
 @compiled

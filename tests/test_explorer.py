@@ -6,7 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from duffing import Duffing, explorer, lyapunov_spectrum, paper, poincare_section, splitting, widgets
+from duffing import Duffing, lyapunov_spectrum, paper, poincare_section, splitting
+from duffing.book import explorer, widgets
 
 
 @pytest.fixture(scope="module")

@@ -265,7 +265,7 @@ def test_names_in_docstrings_lead_to_the_nearest_entry():
 
 
 def test_the_page_on_the_package_holds_every_public_name_and_every_module(tmp_path):
-    modules = api_page.module_names("duffing")
+    modules = api_page.modules_of("duffing").values()
     page = "# The package\n\n```{package-page}\nTheory: melnikov oscillator\n```\n"
     (tmp_path / "index.md").write_text(page)
     head = f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n"
@@ -275,6 +275,6 @@ def test_the_page_on_the_package_holds_every_public_name_and_every_module(tmp_pa
     for name in duffing.__all__:
         assert html["index"].count(f'id="duffing.{name}"') == 1, name
     for name in modules:
-        assert html["index"].count(f'id="module-duffing.{name}"') == 1, name
+        assert html["index"].count(f'id="module-{name}"') == 1, name
     assert html["index"].index("module-duffing.melnikov") < html["index"].index("module-duffing.checks")
     assert "Alias for field number" not in html["index"]

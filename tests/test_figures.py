@@ -81,7 +81,7 @@ def test_every_figure_of_the_paper_has_its_case():
 
 def figure_functions():
     """Names of the functions that draw a figure, those that @styled marks, in the modules of figures."""
-    for path in sorted(Path(figures.__file__).parent.glob("figures*.py")):
+    for path in sorted(Path(figures.__file__).parent.rglob("figures*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.FunctionDef) and any(ast.unparse(mark) == "styled" for mark in node.decorator_list):
                 yield f"{path.stem}.{node.name}"

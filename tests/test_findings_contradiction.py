@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from duffing import comparison_study, findings_contradiction, transient_study
+from duffing.book import comparison_study, findings_contradiction, transient_study
 
 
 def test_at_equal_forcing_the_exponent_of_chaos_is_smaller_at_small_p_beyond_doubt():

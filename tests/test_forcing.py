@@ -4,7 +4,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from duffing import forcing, rk4
+from duffing import rk4
+from duffing.kernels import forcing
 from duffing.oscillator import Duffing
 
 START = (0.45, 0.1)

@@ -5,9 +5,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from duffing import friction, turning
-from duffing.creep import _A, _C
+from duffing import friction
 from duffing.errors import ConvergenceError, DivergedError
+from duffing.kernels import turning
+from duffing.kernels.creep import _A, _C
 from duffing.oscillator import Duffing
 
 START = np.array([0.45, 0.1])

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from duffing import friction, turning
+from duffing import friction
 from duffing.errors import DivergedError
-from duffing.lanes import WIDTH
+from duffing.kernels import turning
+from duffing.kernels.lanes import WIDTH
 from duffing.oscillator import Duffing
 
 PERIOD = 2 * np.pi

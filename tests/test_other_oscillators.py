@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 
-from duffing import Duffing, critical_amplitude, figures, figures_beyond, homoclinic_orbit, paper, reproduction, small_p
+from duffing import Duffing, critical_amplitude, figures, homoclinic_orbit, paper
+from duffing.book import figures_beyond, reproduction, small_p
 from duffing.manifolds import stable_manifold, unstable_manifold
 
 OTHER = Duffing(alpha=0.25, p=0.4, mu=0.8, omega=0.7, delta=-2.0, gamma=0.5)

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from duffing import ConvergenceError, Duffing, poincare_section, trajectory
-from duffing.periodic import cycle, half_return, multipliers_of, path, periodic_orbit, periodic_orbits
+from duffing.orbits.periodic import cycle, half_return, multipliers_of, path, periodic_orbit, periodic_orbits
 
 LINEAR = Duffing(alpha=0.3, p=1.0, mu=0.4, omega=1.3, delta=2.0, gamma=0.0)
 IN_WELL = Duffing(alpha=0.1, p=1.0, mu=0.15)

@@ -11,8 +11,9 @@ import pytest
 from jupyter_client import BlockingKernelClient
 from nbclient import NotebookClient
 
-from duffing import Duffing, lyapunov_spectrum, progress
-from duffing.progress import reporting
+from duffing import Duffing, lyapunov_spectrum
+from duffing.parallel import progress
+from duffing.parallel.progress import reporting
 
 CALL = """
 import numpy as np

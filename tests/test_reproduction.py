@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from duffing import lyapunov_spectrum, paper, reproduction
+from duffing import lyapunov_spectrum, paper
+from duffing.book import reproduction
 from duffing.flow import integrate
 
 

@@ -5,10 +5,10 @@ import pytest
 from scipy.integrate import quad
 
 from duffing import ConvergenceError, Duffing
-from duffing import resonance_study as resonance
-from duffing.bifurcations import FOLD
-from duffing.followed import at_exponent, curves, speed
-from duffing.periodic import half_return, periodic_orbits
+from duffing.book import resonance_study as resonance
+from duffing.orbits.bifurcations import FOLD
+from duffing.orbits.followed import at_exponent, curves, speed
+from duffing.orbits.periodic import half_return, periodic_orbits
 
 
 @pytest.mark.parametrize("p", [0.1, 0.5, 2.0, 3.0])

@@ -123,7 +123,7 @@ def test_a_block_of_an_executor_takes_one_thread_unless_more_are_asked_for(given
 
 
 def test_only_a_bounded_number_of_tasks_is_under_way(monkeypatch):
-    monkeypatch.setattr("duffing.workers.IN_FLIGHT", 5)
+    monkeypatch.setattr("duffing.parallel.workers.IN_FLIGHT", 5)
     under_way, most = [], []
 
     class Watched(ThreadPoolExecutor):

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import ConvergenceError, paper, poincare_section, transient_study
-from duffing.survival import exponential
+from duffing import ConvergenceError, paper, poincare_section
+from duffing.attraction.survival import exponential
+from duffing.book import transient_study
 
 STEP = {"method": "rk4"}
 

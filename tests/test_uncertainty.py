@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from duffing import ConvergenceError, Duffing
-from duffing.fates import fate
-from duffing.uncertainty import dimension, uncertain_starts
+from duffing.attraction.fates import fate
+from duffing.attraction.uncertainty import dimension, uncertain_starts
 
 BOX = ((-1.0, 1.0), (-1.0, 1.0))
 

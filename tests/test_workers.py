@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, context, kills_its_worker, marked, marks, starts
 
-from duffing import Duffing, workers
+from duffing import Duffing
 from duffing.errors import LostWorkerError
+from duffing.parallel import workers
 from duffing.sweep import over_blocks
 
 

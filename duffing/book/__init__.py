@@ -1,0 +1,1 @@
+"""What the chapters show: the paper rerun, studies, findings and verdicts, tables, widgets, more figures."""

@@ -1,0 +1,104 @@
+"""What is read off branches of periodic orbits: amplitudes, speeds, stroboscopic points, where they bifurcate."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..oscillator import Duffing
+from .bifurcations import Bifurcation, OrbitBranch
+from .periodic import cycle, path, periodic_orbit
+
+DRAWING = {"rtol": 1e-7, "atol": 1e-9}  # for curves: a line is wider than the error
+
+
+class Followed(NamedTuple):
+    """A branch, the name of the orbits on it and the bifurcations found (a tuple)."""
+
+    name: str
+    branch: OrbitBranch
+    found: tuple[Bifurcation, ...]
+
+
+def amplitude(osc, state, halves, samples=100):
+    """Half the range of x over the orbits through the states (2, *family): (*family). Sampled: right to about 1e-3."""
+    x = path(osc, state, halves, samples * halves // 2, **DRAWING)[0]
+    return np.max(np.abs(x), axis=0) if halves % 2 else np.ptp(x, axis=0) / 2
+
+
+def speed(osc, state, halves, samples=100):
+    """Greatest |v| over the orbits through the states (2, *family): (*family). Sampled, like `amplitude`."""
+    return np.max(np.abs(path(osc, state, halves, samples * halves // 2, **DRAWING)[1]), axis=0)
+
+
+def stroboscopic(osc, state, halves):
+    """x at phase 0 of the orbits through the states (2, n) and of their mirror images: (halves, n)."""
+    return cycle(osc, state, halves)[0]
+
+
+def curves(followed, value=amplitude):
+    """The branches as curves to draw: list of (name, parameter (n,), value (n,) or (k, n), stable (n,)).
+
+    The bifurcations stand among their points, so that stability changes where it does.
+    """
+    result = []
+    for name, branch, found in followed:
+        columns, state = branch.osc.columns(), branch.state
+        # From a stable point on, a curve is stable up to the bifurcation: that counts as stable when a neighbour is.
+        stable = branch.stable
+        place = np.array([flaw.index + 1 for flaw in found], dtype=int)
+        order = np.argsort(place, kind="stable")
+        beside = [stable[k - 1] or stable[k] for k in place[order]]
+        extra = [np.concatenate([flaw.osc.columns()[:, 0], flaw.state]) for flaw in found]
+        if extra:
+            extra = np.array(extra)[order].T
+            columns = np.insert(columns, place[order], extra[:6], axis=1)
+            state = np.insert(state, place[order], extra[6:], axis=1)
+            stable = np.insert(stable, place[order], beside)
+        osc = Duffing(*columns)
+        result.append((name, getattr(osc, branch.field), value(osc, state, branch.halves), stable))
+    return result
+
+
+def marks(followed):
+    """Their bifurcations as marks on amplitudes: list of (kind, parameter, value)."""
+    return [
+        (
+            flaw.kind,
+            float(getattr(flaw.osc, one.field)),
+            float(amplitude(flaw.osc, flaw.state, flaw.halves)),
+        )
+        for _, one, found in followed
+        for flaw in found
+    ]
+
+
+def at_exponent(followed, p):
+    """Those branches whose damping exponent is p."""
+    return tuple(one for one in followed if one.branch.osc.p[0] == p)
+
+
+def side_by_side(followed):
+    """Where each bifurcation lies for each exponent: list of (name, kind, {p: mu}), in the order along the branches."""
+    places = {}
+    for name, branch, found in followed:
+        for number, one in enumerate(found):
+            key = (name, one.kind, sum(other.kind == one.kind for other in found[:number]))
+            places.setdefault(key, {})[float(branch.osc.p[0])] = float(one.osc.mu)
+    return [(name, kind, where) for (name, kind, _), where in places.items()]
+
+
+def orbits_at(followed, mu):
+    """The orbits that the branches have at the forcing mu: dict name -> list of PeriodicOrbit, by Newton's method."""
+    result = {}
+    for name, branch, _ in followed:
+        low, high = branch.parameter[:-1], branch.parameter[1:]
+        for j in np.flatnonzero(((low - mu) * (high - mu) < 0) | (low == mu)):
+            share = (mu - low[j]) / (high[j] - low[j])
+            guess = (1 - share) * branch.state[:, j] + share * branch.state[:, j + 1]
+            orbit = periodic_orbit(replace(Duffing(*branch.osc.columns()[:, j]), mu=mu), guess, branch.halves)
+            known = result.setdefault(name, [])
+            # Two branches that leave the same start both hold it.
+            if not any(np.max(np.abs(orbit.state - other.state)) < 1e-6 for other in known):
+                known.append(orbit)
+    return result

@@ -1,0 +1,1 @@
+"""What `sweep` stands on: workers, checkpoints, progress, and what a task costs."""
