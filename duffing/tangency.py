@@ -17,7 +17,7 @@ from .oscillator import Duffing
 from .saddle import names, saddle_frame, unit_members, units
 
 _LAUNCHES = 32  # of W^U, all round, to make sure that the splitting found is the greatest
-_ATTEMPTS = 60  # each halves the bracket at least
+_ATTEMPTS = 60  # each of them, or the next, halves the bracket
 _TOLERANCE = 1e-9  # relative, of the tangency
 _LEAST = 1e-7  # of mu, dimensionless: the splitting, of the order of mu, is known to some 1e-14
 
@@ -127,7 +127,7 @@ def _crossing(frame, kind, phase, member):
     t = phase / omega - (flight if kind == UNSTABLE else -flight)
     low, high = t - period, t + period
     goal, result = phase / omega, np.empty((2, phase.size))
-    left = np.arange(phase.size)
+    left, missed = np.arange(phase.size), np.full(phase.size, np.inf)
     for attempt in range(_ATTEMPTS):
         found, shift, delay = _follow(frame, kind, t[left], member[left])
         if attempt == 0:
@@ -137,9 +137,10 @@ def _crossing(frame, kind, phase, member):
         result[:, left] = found.x + slope * early, slope / omega[left]
         low[left], high[left] = np.where(early > 0, t[left], low[left]), np.where(early > 0, high[left], t[left])
         newton = t[left] + early / np.where(delay > 0, delay, 1e-300)
-        inside = (newton > low[left]) & (newton < high[left])
-        done = np.abs(early * omega[left]) < 1e-6
-        t[left] = np.where(inside, newton, (low[left] + high[left]) / 2)
+        # Newton's steps alone can go to and fro between two points for ever.
+        gains = (newton > low[left]) & (newton < high[left]) & (np.abs(early) < missed[left] / 2)
+        done, missed[left] = np.abs(early * omega[left]) < 1e-6, np.abs(early)
+        t[left] = np.where(gains, newton, (low[left] + high[left]) / 2)
         left = left[~done]
         if left.size == 0:
             return result

@@ -118,7 +118,9 @@ def error(a, l, rtol, atol, kind):
     squares = squares5 + 0.01 * fma(x3, x3, fma(v3, v3, along3 * along3))
     # Of the old point: a step that has gone wild would excuse itself by the size of what it leads to.
     scale = atol + rtol * np.sqrt(a[X + l] * a[X + l] + v * v)
-    return 0.0 if squares == 0.0 else abs(a[H + l]) * squares5 / (scale * np.sqrt(squares))
+    # A wild step can overflow one estimate and not the other: it has no quotient that means anything.
+    e = abs(a[H + l]) * squares5 / (scale * np.sqrt(squares)) if squares < np.inf else np.inf
+    return 0.0 if squares == 0.0 else e
 
 
 @njit(forceinline=True)

@@ -80,7 +80,7 @@ def _judge_lane(a, l, component, tangents, control, kind):
 
     event = COLLAPSES if (tangents == 2) & collapses(a, l) else GOING
     if kind != LINEAR:  # what befalls only where the damping is stiff
-        event = _stiff_event(a, l, relaxation, rtol, switch, fits, event)
+        event = _stiff_event(a, l, h, relaxation, rtol, switch, fits, event)
     event = NO_CROSSING if (component == W) & (abs(t) > abs(a[TARGET + l])) else event
     tame = (a[GAMMA + l] == 0.0) & (a[P + l] <= 1.0)
     event = event if abs(x) < (_OVERFLOWS if tame else _ESCAPED) else DIVERGED
@@ -90,9 +90,9 @@ def _judge_lane(a, l, component, tangents, control, kind):
 
 
 @njit(forceinline=True)
-def _stiff_event(a, l, relaxation, rtol, switch, fits, event):
+def _stiff_event(a, l, h, relaxation, rtol, switch, fits, event):
     """CREEPS or PAST_UNKNOWN where p < 1 and the motion rests or relaxes fast, else the event as it is."""
-    h, x, w, m, n = a[H + l], a[NEW + X + l], a[NEW + W + l], a[M + l], a[N + l]
+    x, w, m, n = a[NEW + X + l], a[NEW + W + l], a[M + l], a[N + l]
     resting = at_rest(a, l, x, m * a[RATE + W + l], m * a[RATE + S + l] * w / n)  # phi = 0 there
     slow = abs(a[RATE + W + l]) < SLOW * relaxation * abs(w) / n
     forward, sticky = a[SIGN + l] > 0.0, a[P + l] < 1.0
