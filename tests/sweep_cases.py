@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -45,12 +46,16 @@ def diverges_at(osc, state, threads, mu):
     return marks(osc, state, threads)
 
 
-def kills_its_worker(osc, state, threads, mu, folder=None):
-    """`marks`, but a block with this mu ends its process, each time or, with a folder to remember it in, once."""
+def kills_its_worker(osc, state, threads, mu, folder=None, after=0.0):
+    """`marks`, but a block with this mu ends its process, each time or, with a folder to remember it in, once.
+
+    after : seconds, for a worker that has just begun to be at home
+    """
     if np.any(osc.mu == mu):
         memory = Path(folder, "killed") if folder else None
         if memory is None or not memory.exists():
             if memory:
                 memory.touch()
+            time.sleep(after)
             os.kill(os.getpid(), signal.SIGKILL)
     return marks(osc, state, threads)

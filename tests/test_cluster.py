@@ -23,8 +23,24 @@ def client():
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
         Client(cluster) as client,
     ):
+        # dask gives up a worker that dies as it starts, which one that a task kills can seem to do: have it replaced.
+        cluster.adapt(minimum=2, maximum=2)
         client.wait_for_workers(2)
         yield client
+
+
+@pytest.fixture(autouse=True)
+def patience():
+    """A cluster without workers waits for ever: a test does not."""
+
+    def give_up(number, frame):
+        raise TimeoutError("the cluster has not answered for five minutes")
+
+    before = signal.signal(signal.SIGALRM, give_up)
+    signal.alarm(300)
+    yield
+    signal.alarm(0)
+    signal.signal(signal.SIGALRM, before)
 
 
 @pytest.mark.parametrize("method", ["auto", "rk4"])
@@ -49,7 +65,7 @@ def test_an_error_arrives_with_its_type_and_message_and_finished_blocks_are_kept
 
 
 def test_a_worker_that_is_killed_costs_a_retry_and_not_the_sweep(client, tmp_path):
-    options = {"mu": 0.1, "folder": str(tmp_path)}
+    options = {"mu": 0.1, "folder": str(tmp_path), "after": 1.0}
     result = over_blocks(kills_its_worker, PLANE, starts(PLANE), options, block=4, executor=client.get_executor())
     np.testing.assert_array_equal(result, marked(PLANE, starts(PLANE)))
     assert (tmp_path / "killed").exists()
@@ -72,8 +88,9 @@ def test_a_worker_killed_from_outside_between_blocks_is_replaced(client, tmp_pat
 
 def test_a_block_that_goes_on_killing_its_worker_is_named(client):
     fatal = float(PLANE.mu[7, 0])
+    options = {"mu": fatal, "after": 1.0}
     with pytest.raises(LostWorkerError, match=r"^workers died .* computed 4 members, the first with .* p = "):
-        over_blocks(kills_its_worker, PLANE, starts(PLANE), {"mu": fatal}, block=4, executor=client.get_executor())
+        over_blocks(kills_its_worker, PLANE, starts(PLANE), options, block=4, executor=client.get_executor())
 
 
 def test_the_program_in_the_chapter_gives_the_same_bits(tmp_path):
