@@ -166,7 +166,8 @@ class PackagePage(SphinxDirective):
             lines += [f"**{theme}**", ""]
             for name in chosen:
                 (line,) = filter(None, to_rst([first_sentence(names.modules[name])], lambda word: f"``{word}``"))
-                lines.append(f"* :py:mod:`{name} <{names.modules[name]}>`: {line}")
+                path = names.modules[name].partition(".")[2]
+                lines.append(f"* :py:mod:`{path} <{names.modules[name]}>`: {line}")
             lines.append("")
         return nodes.container("", *self.parsed(lines), classes=["package-map"])
 
