@@ -13,7 +13,7 @@ from duffing import Duffing, critical_amplitude, melnikov_function
 from duffing.correction import tangency_correction
 from duffing.errors import ConvergenceError, NoSaddleOrbitError
 from duffing.saddle import saddle_frame
-from duffing.tangency import _split, homoclinic_tangency, splitting
+from duffing.tangency import _highest, _split, homoclinic_tangency, splitting
 
 PHASES = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 
@@ -215,3 +215,11 @@ def test_splitting_is_smooth_where_newtons_steps_alone_would_go_to_and_fro():
     values = splitting(Duffing(alpha=0.1, p=0.4, mu=0.11306543), phase)
     slopes = np.diff(values) / np.diff(phase)
     assert np.abs(np.diff(slopes)).max() < 0.3 * np.abs(slopes).max()
+
+
+def test_the_greatest_splitting_among_launches_all_round_is_that_over_all_phases():
+    osc = Duffing(alpha=0.1, p=[0.75, 2.0], mu=0.12)
+    height, phase = _highest(saddle_frame(osc))
+    around = splitting(osc, PHASES[:, None])
+    np.testing.assert_allclose(height, around.max(axis=0), rtol=0.02)
+    np.testing.assert_allclose(splitting(osc, phase), height, rtol=1e-6)
