@@ -88,13 +88,29 @@ def completed(executor, function, arguments, tasks, grace=0.0):
                     yield task, future.result()
         raise failure
     except KeyboardInterrupt:
-        _end_processes(pool)
+        if isinstance(pool, ProcessPoolExecutor):
+            _end_processes(pool)
+            pending.clear()  # the pool's own thread is giving them up: to cancel one under its hands is an error there
         raise
     finally:
-        for future in pending:
-            future.cancel()
+        _cancel(deque(pending))
         if owned:
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _cancel(futures, patience=0.2):
+    """Cancel all; what is left after so many seconds, in the background: dask needs a round trip for each."""
+    end = time.monotonic() + patience
+    while futures and time.monotonic() < end:
+        futures.popleft().cancel()
+
+    def rest():
+        with suppress(Exception):  # the client may have been closed meanwhile, which cancels as well
+            while futures:
+                futures.popleft().cancel()
+
+    if futures:
+        threading.Thread(target=rest, daemon=True).start()
 
 
 def _next(queue):
@@ -158,9 +174,8 @@ def _replaced(pool, owned, source):
 
 def _end_processes(pool):
     # As ProcessPoolExecutor.terminate_workers does from Python 3.14 on.
-    if isinstance(pool, ProcessPoolExecutor):
-        for process in list((pool._processes or {}).values()):
-            process.terminate()
+    for process in list((pool._processes or {}).values()):
+        process.terminate()
 
 
 def _sentence(arguments, times):
