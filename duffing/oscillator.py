@@ -78,10 +78,10 @@ class Duffing:
 
         Raises ValueError for a symbol: only formulas take it.
         """
-        full = []
+        full, shape = [], self.shape
         for name, value in zip(vars(self), self._values(), strict=True):
             try:
-                full.append(np.broadcast_to(np.asarray(value, dtype=float), self.shape).ravel())
+                full.append(np.broadcast_to(np.asarray(value, dtype=float), shape).ravel())
             except TypeError:
                 raise ValueError(f"{name} = {value}: must be a number where the equation is integrated") from None
         return np.array(full)

@@ -10,16 +10,14 @@ depend on the machine, on threads or on the family that a member belongs to: in 
 import os
 
 import numpy as np
-from llvmlite import ir
-from numba import carray, njit, types
-from numba.core import cgutils
-from numba.extending import intrinsic
+from numba import carray, njit
 
 from . import checks
 from .errors import DivergedError
 from .kernels.compiled import compiled
 from .kernels.forcing import in_blocks
 from .kernels.powers import evaluate, fma
+from .kernels.vectors import stack, widest_vectors
 from .orbit import Orbit
 
 # Trajectories of a block (its rows stay in the first-level cache) and of an inner loop (the widest vector of doubles).
@@ -33,6 +31,7 @@ _X, _V, _TANGENT = 0, 1, 2
 _START, _STAGE, _SUM = 0, 6, 12
 _H, _ALPHA, _P, _MU, _DELTA, _GAMMA, _Q = 18, 19, 20, 21, 22, 23, 24
 _ROWS = 28
+_BLOCK = _ROWS * LANES
 
 
 def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
@@ -112,25 +111,14 @@ def _rests(columns, state):
     return (p < 1) & (alpha > 0) & (mu == 0) & (v == 0) & ((delta + gamma * x * x) * x == 0)
 
 
-@intrinsic
-def _workspace(typingctx):
-    """Memory on the stack: LLVM sees that nothing else points there, without which it vectorises no table look-up."""
-
-    def codegen(context, builder, signature, arguments):
-        rows = cgutils.alloca_once(builder, ir.ArrayType(ir.DoubleType(), _ROWS * LANES))
-        rows.align = 64  # whole cache lines
-        return builder.bitcast(rows, context.get_value_type(signature.return_type))
-
-    return types.CPointer(types.float64)(), codegen
-
-
 @compiled
 def advance(columns, state, h, cosines, offsets, counts, law, basis, members, states, growth, propagators):
     """Advance one block through all intervals. law: None for p = 1; basis: a tuple as long as there are tangents.
 
     growth comes in as zeros, propagators as identities.
     """
-    blocks = carray(_workspace(), (LANES // WIDTH, _ROWS, WIDTH))[: state.shape[1] // WIDTH]
+    widest_vectors()
+    blocks = carray(stack(_BLOCK), (LANES // WIDTH, _ROWS, WIDTH))[: state.shape[1] // WIDTH]
     for lane in range(state.shape[1]):
         b, l = blocks[lane // WIDTH], lane % WIDTH
         b[_X, l], b[_V, l] = state[0, lane], state[1, lane]

@@ -82,6 +82,7 @@ MUTANTS = (
     Mutant("dop853", "short and long form differ in a bit", "np.cumsum(_TABLE, axis=1)[:, -1]", "np.cumsum(_TABLE, axis=1)[:, -1] * (1 + 2**-52)", ("tests/test_lanes.py",)),
     Mutant("judge", "rejected steps are taken", "taken = (a[REJECTED + l] == 0.0) & (a", "taken = (a[REJECTED + l] >= 0.0) & (a", ("tests/test_friction.py",)),
     Mutant("judge", "an error is taken for small", "fits = e <= 1.0", "fits = e <= 1e4", ("tests/test_friction.py",)),
+    Mutant("follow", "a lane that moves leaves its parameters behind", "range(0, BLOCK, WIDTH)", "range(0, ALPHA, WIDTH)", ("tests/test_lanes.py",)),
     Mutant("landing", "the last shift the wrong way", "shift * a[RATE + row + l]", "-shift * a[RATE + row + l]", ("tests/test_friction.py", "tests/test_lanes.py")),
     Mutant("periodic", "the half map's change of sign", "sign = (-1) ** halves", "sign = 1 ** halves"),
     Mutant("survival", "those not captured count as captured", "events, exposure = int(np.sum(settled & late))", "events, exposure = int(np.sum(late))"),

@@ -14,7 +14,7 @@ PACKAGE = Path(duffing.__file__).parent
 ORDER = [
     "compiled", "errors", "checks", "arithmetic", "oscillator", "orbit",
     "melnikov",
-    "powers", "forcing", "rk4", "companion",
+    "vectors", "powers", "forcing", "rk4", "companion",
     "elementary", "lanes", "friction_time", "dop853", "creep", "frame", "landing", "judge",
     "follow", "flight", "friction", "turning",
     "flow",

@@ -24,7 +24,8 @@ from numba import carray, njit
 
 from .compiled import compiled
 from .friction_time import force, stiffness
-from .lanes import ALPHA, DELTA, GAMMA, MU, NEW, WIDTH, XI1, P, S, T, X, stack
+from .lanes import ALPHA, DELTA, GAMMA, MU, NEW, WIDTH, XI1, P, S, T, X
+from .vectors import stack
 
 STAGES = 5
 SLOW = 0.3  # near the slow branch |F - alpha Y| is less than this part of the force

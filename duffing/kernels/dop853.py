@@ -12,6 +12,7 @@ from .compiled import compiled
 from .friction_time import LINEAR, rates
 from .lanes import ETA1, ETA2, NEW, RATE, SLOPES, STATE, XI1, XI2, H, M, S, T, W, X
 from .powers import fma
+from .vectors import widest_vectors
 
 _TABLE = np.vstack([DOP853.A, DOP853.B])  # the last row leads to the new point
 _LAST = 12
@@ -56,6 +57,7 @@ def advance(a, eights, tangents, kind):
 @njit(forceinline=True)
 def _combine(a, eights, stage, tangents, kind):
     """NEW = state + H (the stage's row of the table) slopes, the last of which are RATE and are kept in SLOPES."""
+    widest_vectors()
     # Rows spelled out: where their distances are constants, no loop has to make sure first that they do not overlap.
     if kind == LINEAR:
         for l in range(8 * eights):

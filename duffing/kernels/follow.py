@@ -53,8 +53,8 @@ from .lanes import (
     T,
     W,
     X,
-    stack,
 )
+from .vectors import stack
 
 # What is told of each interval: position, velocity, time, friction time, the frame, its first vector's angle, passages.
 RESULTS = AT_X, AT_V, AT_T, AT_S, R11, R22, R12, ANGLE, ANNIHILATIONS = range(9)
@@ -71,21 +71,28 @@ def follow(parameters, states, times, component, beyond, tangents, control, resu
     control : rtol, atol, bound on the steps of an interval, relaxation times a step above which a creep begins
     results : (N, n - 1, 9), in the order of RESULTS
     """
-    a, eights, kind, waiting = stack(BLOCK), 1 if status.size <= 8 else WIDTH // 8, LINEAR, 0
-    for l in range(WIDTH):
+    a, kind, waiting, flying = stack(BLOCK), LINEAR, 0, min(status.size, WIDTH)
+    for l in range(flying):
         a[MEMBER + l] = -1.0
     while True:
-        flying = 0
-        for l in range(8 * eights):
+        l = 0
+        while l < flying:
             if a[MEMBER + l] >= 0.0 and a[EVENT + l] != GOING:
                 _serve(a, l, times, component, beyond, tangents, control, results, status, evaluations)
-            if a[MEMBER + l] < 0.0 and waiting < status.size:
+            if a[MEMBER + l] >= 0.0:
+                l += 1
+            elif waiting < status.size:
                 kind = max(kind, _board(a, l, waiting, parameters, states))
                 _depart(a, l, 0, times, component, tangents)
                 waiting += 1
-            flying += a[MEMBER + l] >= 0.0
+                l += 1
+            else:  # nobody waits: the last lane moves here, so that the block gets smaller
+                flying -= 1
+                for row in range(0, BLOCK, WIDTH):
+                    a[row + l] = a[row + flying]
         if flying == 0:
             break
+        eights = (flying + 7) // 8
         advance(a, eights, tangents, kind)
         judge(a, eights, component, tangents, control, kind)
 

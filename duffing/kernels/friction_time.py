@@ -49,6 +49,7 @@ from .lanes import (
     X,
 )
 from .powers import fma
+from .vectors import widest_vectors
 
 LINEAR, ONE_POWER, TWO_POWERS = range(3)  # kinds of blocks: all lanes have m = n = 1; n = 1; neither
 _SMOOTHNESS = 8  # the least m - 1 for which the pair keeps its order at w = 0
@@ -57,9 +58,9 @@ _SMOOTHNESS = 8  # the least m - 1 for which the pair keeps its order at w = 0
 def parameters(columns):
     """The kernels' parameters, one row of nine a member, from the oscillator's columns (6, N)."""
     alpha, p = columns[0], columns[1]
-    odd = 2 * np.ceil(np.maximum((_SMOOTHNESS + 1) * p - 1, 0) / 2) + 1
-    n = np.where(alpha > 0, np.where(p % 2 == 1, p, odd), 1)
-    m = np.where((alpha > 0) & (p % 2 != 1), n / p, 1)
+    odd, smooth = 2 * np.ceil(np.maximum((_SMOOTHNESS + 1) * p - 1, 0) / 2) + 1, p % 2 == 1
+    n = np.where(alpha > 0, np.where(smooth, p, odd), 1)
+    m = np.where((alpha > 0) & ~smooth, n / p, 1)
     return np.ascontiguousarray(np.concatenate([columns, [m, n, np.zeros_like(m)]]).T)
 
 
@@ -126,6 +127,7 @@ def _tangent_slopes(a, l, at, xi):
 @compiled
 def rates(a, eights, tangents, kind):
     """RATE = the slopes at NEW of the first eights * 8 lanes, with as many tangent vectors as asked."""
+    widest_vectors()
     if kind == LINEAR:
         for l in range(8 * eights):
             _slopes(a, l, NEW, LINEAR)

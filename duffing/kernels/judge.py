@@ -40,6 +40,7 @@ from .lanes import (
     W,
     X,
 )
+from .vectors import widest_vectors
 
 # What befalls a lane in a step (0: nothing), and how a trajectory ends: a status.
 GOING, DONE, DIVERGED, TOO_MANY_STEPS, PAST_UNKNOWN, STUCK, NO_CROSSING, ARRIVES, CREEPS, COLLAPSES = range(10)
@@ -107,6 +108,7 @@ def _stiff_event(a, l, h, relaxation, rtol, switch, fits, event):
 @compiled
 def judge(a, eights, component, tangents, control, kind):
     """Of each lane: is its step to NEW accepted, which is the next, what more is to do; accepted ends are taken."""
+    widest_vectors()
     if kind == LINEAR:
         for l in range(8 * eights):
             _judge_lane(a, l, component, tangents, control, LINEAR)

@@ -4,11 +4,6 @@ Quantity Q of lane l of the block `a` is a[Q + l]. A loop over the lanes of a ro
 what a lane computes depends on nothing in the others.
 """
 
-from llvmlite import ir
-from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
-
 WIDTH = 32  # lanes: enough to hide the latencies of the processor, few enough that a block fits its first-level cache
 
 # The state: friction time and time since START, position, w (velocity's substitute), two tangent vectors (xi, eta).
@@ -34,16 +29,3 @@ LOG1, LOG2, SHEAR, _END = (_END + WIDTH * row for row in range(4))
 STEPS, PASSAGES, EVALUATIONS, _END = (_END + WIDTH * row for row in range(4))
 # Whose trajectory it is (-1: nobody's), and which interval of it.
 MEMBER, INTERVAL, BLOCK = (_END + WIDTH * row for row in range(3))
-
-
-@intrinsic(prefer_literal=True)
-def stack(typingctx, size):
-    """Memory for `size` (a constant) doubles, zeros, on the stack: LLVM sees that no other pointer leads there."""
-
-    def codegen(context, builder, signature, arguments):
-        array = ir.ArrayType(ir.DoubleType(), size.literal_value)
-        memory = cgutils.alloca_once(builder, array, zfill=True)
-        memory.align = 64  # whole cache lines
-        return builder.bitcast(memory, context.get_value_type(signature.return_type))
-
-    return types.CPointer(types.float64)(size), codegen
