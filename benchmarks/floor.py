@@ -1,7 +1,7 @@
 """The floor under the kernel: what its arithmetic alone would take at the speed of this machine's vector units.
 
 One Runge-Kutta step of state and tangent is four powers |v|^(p-1) and the operations counted below. Each is timed by
-itself in a loop that nothing else holds up, with vectors as wide as the compiler chooses them for the kernel; their sum
+itself in a loop that nothing else holds up, with vectors as wide as the kernel's; their sum
 over the kernel's own time is the share that is floor.
 """
 
@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit
 
 from duffing.kernels.powers import evaluate, fma, power
+from duffing.kernels.vectors import widest_vectors
 
 from .rewrites import STEPS
 from .sweep import PERIODS, family, kernel
@@ -27,6 +28,7 @@ _CHAIN = 16
 # The sum, which is thrown away, may be added up in any order: so that the loop vectorises.
 @njit(fastmath={"reassoc"}, error_model="numpy")
 def _powers(v, law, repeats):
+    widest_vectors()
     total = 0.0
     for _ in range(repeats):
         for l in range(v.size):
@@ -36,6 +38,7 @@ def _powers(v, law, repeats):
 
 @njit(fastmath={"reassoc"})
 def _multiply_adds(v, repeats):
+    widest_vectors()
     total = 0.0
     for _ in range(repeats):
         for l in range(v.size):
