@@ -5,14 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from . import checks
-from .flow import METHODS, integrate, stroboscopic_times
+from .flow import integrate, stroboscopic_times
 from .kernels.companion import two_trajectory_growth
-from .sweep import block_of, over_blocks
-
-# Roughly the seconds that a member takes for a period: by the paper's algorithm, with 500 steps, and in friction time.
-_PAPER, _FRICTION_TIME = 1e-5, 2.5e-4
-# Members that the paper's algorithm advances by one instruction, and in one go.
-_LANES = 8, 64
+from .sweep import block_for, over_blocks
 
 
 class LyapunovSpectrum(NamedTuple):
@@ -57,13 +52,9 @@ def lyapunov_spectrum(
     return LyapunovSpectrum(rows[:, 0], rows[:, 1], rows[:, 2:] if history else None)
 
 
-def block_members(periods=200, transient=40, method="auto", steps_per_period=500, **_):
+def block_members(periods=200, transient=40, **options):
     """Members that `lyapunov_spectrum` with these options takes for a block of work, by what they roughly cost."""
-    rk4 = checks.choice("method", method, METHODS) == "rk4"
-    # A steps_per_period that is no number is refused later, by the integrator.
-    steps = steps_per_period if isinstance(steps_per_period, int) and steps_per_period > 0 else 500
-    seconds = (transient + periods) * (_PAPER * steps / 500 if rk4 else _FRICTION_TIME)
-    return block_of(seconds, _LANES if rk4 else (1,))
+    return block_for(transient + periods, **options)
 
 
 def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d0=1e-8, steps_per_period=500):
