@@ -56,13 +56,17 @@ def block_for(periods, method="auto", steps_per_period=500, **_):
     return block_of(periods * _RK4 * steps / 500, _RK4_LANES)
 
 
-def over_blocks(function, osc, state, options, *, block=BLOCK, executor=None, progress=None, checkpoint=None):
+def over_blocks(
+    function, osc, state, options, *, block=BLOCK, dwindling=False, executor=None, progress=None, checkpoint=None
+):
     """function(osc, state, threads=..., **options) over a family of N members, block by block.
 
     function : returns an array whose last axis is the members' (as many as it is given, whatever their number)
     state : (2, N), or more rows if the function takes them
     options : passed on; "threads" among them is the number of threads at once here, or in each block of an executor
     block : members in a block; a matter of speed, as all that follows
+    dwindling : the function drops members on its way: with little left of each block many small blocks are slow, so
+        that the family is cut only for an executor, progress or checkpoint
     executor : any concurrent.futures executor (threads, processes, dask's `Client.get_executor()`), or a function
         without arguments that makes one; None is threads here
     progress : True, a bar where somebody watches; or called as progress(done, total) with numbers of members
@@ -81,7 +85,8 @@ def over_blocks(function, osc, state, options, *, block=BLOCK, executor=None, pr
     here = os.cpu_count() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
     # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own.
-    whole = executor is None and progress is None and checkpoint is None and total <= 2 * here * block
+    unseen = executor is None and progress is None and checkpoint is None
+    whole = unseen and (dwindling or total <= 2 * here * block)
     inside = here if whole or (executor is not None and threads is not None) else 1
     block = total if whole else block
     family = _Family(osc, state, block * -(-total // (block * TASKS)))

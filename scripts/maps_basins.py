@@ -1,6 +1,7 @@
 """Writes _build/maps/basins-*.png: the basins of attraction at full resolution, 512 x 512 starts or as many as asked.
 
-python scripts/maps_basins.py [starts a side]; p = 1 is some seconds a picture, p = 0.1 some minutes.
+python scripts/maps_basins.py [starts a side]; p = 1 is some seconds a picture, p = 0.1 some minutes. Each is kept block
+by block in _build/maps/blocks: an interrupted run goes on where it was.
 """
 
 import sys
@@ -22,7 +23,7 @@ PICTURES = [
 FOLDER.mkdir(parents=True, exist_ok=True)
 for p, forcing in PICTURES:
     begin = time.perf_counter()
-    found = basin_study.picture(p, **forcing, size=SIZE)
+    found = basin_study.picture(p, **forcing, size=SIZE, progress=True, checkpoint=str(FOLDER / "blocks"))
     (name, value), points = *forcing.items(), [one.points for one in found.attractors if one.period]
     title = rf"$p = {p:g}$, $\mu = {value:g}$" + (r"$\,\mu_c$" if name == "ratio" else "")
     case = (title, found.x, found.v, found.kinds[found.labels], points, [])

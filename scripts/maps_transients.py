@@ -1,4 +1,7 @@
-"""Writes _build/maps/*.svg: the figures of the chapter on the contradiction from many more starts and finer grids."""
+"""Writes _build/maps/*.svg: the figures of the chapter on the contradiction from many more starts and finer grids.
+
+Finished blocks of orbits are kept in _build/maps/blocks: an interrupted run goes on where it was.
+"""
 
 from pathlib import Path
 
@@ -10,6 +13,7 @@ from duffing.book import comparison_study, figures_transients, transient_study
 from duffing.oscillator import Duffing
 
 MAPS = Path(__file__).parents[1] / "_build" / "maps"
+KEPT = str(MAPS / "blocks")
 SINCE = transient_study.SINCE
 
 
@@ -24,7 +28,7 @@ def survival_curves():
     """Thousands of starts at each of four forcings."""
     curves = {}
     for mu in (0.25, 0.26, 0.264, 0.2663):
-        time, settled, _ = transient_study.sample(mu, columns=80, rows=50, periods=2000)
+        time, settled, _ = transient_study.sample(mu, columns=80, rows=50, periods=2000, checkpoint=KEPT)
         fit = exponential(time, settled, SINCE)
         chance = law_test(time, settled, SINCE, until=2000)[1]
         print(f"mu = {mu}: mean lifetime {fit.mean:.1f} +- {fit.error:.1f}, probability of the law {chance:.2f}")
@@ -38,7 +42,8 @@ def lifetimes_and_rates():
     ends = {p: k for k, p in enumerate(transient_study.P_CRISIS)}
     crises = transient_study.crises(points=2000, steps=8)
     grid = {0.1: np.arange(0.240, 0.2901, 0.001), 1.0: np.arange(0.200, 0.2801, 0.001)}
-    found = {p: transient_study.escape(np.round(mu, 4), p, 30, 20, periods=3000) for p, mu in grid.items()}
+    options = {"periods": 3000, "checkpoint": KEPT}
+    found = {p: transient_study.escape(np.round(mu, 4), p, 30, 20, **options) for p, mu in grid.items()}
     lines = [{p: values[ends[p]] for p in grid} for values in (folds, crises)]
     means = {p: (one.mu, one.mean, one.error) for p, one in found.items()}
     bounds = {p: (one.mu, one.bound) for p, one in found.items()}

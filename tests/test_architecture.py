@@ -23,7 +23,7 @@ ORDER = [
     "precision", "paper", "remember", "reproduction", "small_p",
     "diagram",
     "periodic", "continuation", "bifurcations", "followed", "bifurcation_study", "resonance_study",
-    "trapping", "attractors", "basins", "fates", "uncertainty", "boundary", "contact", "basin_study",
+    "trapping", "capture", "attractors", "basins", "fates", "uncertainty", "boundary", "contact", "basin_study",
     "lifetimes", "survival", "crisis", "comparison", "transient_study", "comparison_study",
     "explorer", "basin_explorer", "widgets", "maps",
     "verdicts", "findings_theory", "findings_exponents", "findings_motion", "findings_contradiction",

@@ -5,7 +5,6 @@ into itself. A chaotic one, when the state has stayed in the cells that the attr
 What is not caught is not given away: it is searched for orbits not yet known, and what is left is UNRESOLVED.
 """
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,12 +13,12 @@ from .. import checks
 from ..flow import integrate
 from ..lyapunov import lyapunov_spectrum
 from ..orbits.periodic import half_return, path, periodic_orbits
+from ..sweep import block_for, over_blocks
+from .capture import UNRESOLVED, capture, copies, look, points_of
 from .trapping import Trap, trap
 
-UNRESOLVED = -1
-STREAK, CELL = 20, 0.02  # periods on end in a chaotic attractor's cells; width of a cell in x and v
+CELL = 0.02  # width of a chaotic attractor's cells in x and v
 LONGEST, NEAR = 16, 1e-2  # longest period looked for, and how nearly a state must return for Newton's method to try
-_CHUNK = 4  # periods between two looks at the states
 _SAMPLE = 24  # states not yet caught that a search takes
 _WITNESSES, _PROOF = 32, 500  # chaotic orbits followed, and the periods for which none of them may be caught
 
@@ -86,18 +85,24 @@ def find_attractors(osc, starts=None, periods=400, **options):
     """
     if starts is None:
         starts = np.reshape(np.meshgrid(np.linspace(-1.6, 1.6, 16), np.linspace(-1.2, 1.2, 12)), (2, -1))
-    settled, left = _settle(osc, starts, (), periods, 0.0, options)
+    settled, left = _settle(osc, starts, (), periods, 0.0, {}, options)
     return ordered(settled.attractors + (_chaotic(osc, left, settled.attractors, options) if left.size else ()))
 
 
-def settle(osc, states, attractors=(), periods=200, phase=0.0, **options):
+def settle(
+    osc, states, attractors=(), periods=200, phase=0.0, executor=None, progress=None, checkpoint=None, **options
+):
     """Follow states until an attractor has caught them: Settled.
 
     osc : a single oscillator; states : (2, N) at the forcing phase `phase` (radian)
     attractors : known ones, as from `find_attractors`; periodic ones that are not among them are found on the way and
-        come after them; periods : the most that a state is followed; options as for `duffing.flow.integrate`
+        come after them; periods : the most that a state is followed
+    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`, which is called once between two searches for
+        attractors not yet known (after 32, 64, 128 ... periods), with the states that nothing has caught
+    options, errors : method and options as for `duffing.flow.integrate`
     """
-    return _settle(osc, states, tuple(attractors), periods, phase, options)[0]
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    return _settle(osc, states, tuple(attractors), periods, phase, run, options)[0]
 
 
 def ordered(attractors):
@@ -109,41 +114,29 @@ def ordered(attractors):
     return tuple(sorted(attractors, key=rank))
 
 
-def _settle(osc, states, attractors, periods, phase, options):
-    """Settled, and the states (2, n) that nothing has caught, as they are at the end."""
+def _settle(osc, states, attractors, periods, phase, run, options):
+    """Settled, and the states (2, n) that nothing has caught, as they are at the end. run : how, for `over_blocks`."""
     if checks.model(osc).shape:
         raise ValueError(f"osc has the shape {osc.shape}: must be a single oscillator")
     states = np.asarray(states, dtype=float)
     checks.count("periods", periods)
-    now = _to_phase_zero(osc, checks.state(states, states.shape[1:], "states"), phase, options)
+    now = checks.state(states, states.shape[1:], "states")
     labels, caught = np.full(now.shape[1], UNRESOLVED), np.full(now.shape[1], np.inf)
-    live, streak, done, search = np.arange(now.shape[1]), np.zeros(now.shape[1], dtype=int), 0, 2 * LONGEST
-    points = now[:, None]
+    live, streak = np.arange(now.shape[1]), np.zeros(now.shape[1])
+    first, search = 0, 2 * LONGEST
+    start = checks.parameter("phase", phase) % (2 * np.pi) / osc.omega
     while True:
-        label, when, streak = _look(attractors, points, streak)
-        hit = label != UNRESOLVED
-        labels[live[hit]], caught[live[hit]] = label[hit], done - points.shape[1] + 1 + when[hit]
-        live, streak, now = live[~hit], streak[~hit], points[:, -1, ~hit]
-        if live.size == 0 or done >= periods:
+        last = min(search, periods)
+        regions = tuple((one.period, one.region) for one in attractors)
+        task = {"regions": regions, "first": first, "last": last, "start": start, **options}
+        size, state = block_for(last - first, **options), np.vstack([now, streak])
+        rows = over_blocks(capture, copies(osc, now), state, task, block=size, dwindling=True, **run)
+        label, hit = rows[3].astype(int), rows[3] != UNRESOLVED
+        labels[live[hit]], caught[live[hit]] = label[hit], rows[4, hit]
+        live, now, streak = live[~hit], rows[:2, ~hit], rows[2, ~hit]
+        if live.size == 0 or last == periods:
             return Settled(labels, caught, attractors), now
-        if done >= search:
-            attractors, search = attractors + _unknown(osc, now, attractors, options), 2 * search
-        step = min(_CHUNK, periods - done)
-        points, done = _points(osc, now, step, options)[:, 1:], done + step
-
-
-def _look(attractors, points, streak):
-    """Label and number of the first of the points (2, c, n) that is caught, and the streaks (n,) in chaotic cells."""
-    label, when = np.full(points.shape[2], UNRESOLVED), np.full(points.shape[2], points.shape[1])
-    for number, attractor in enumerate(attractors):
-        inside = attractor.region.holds(points)
-        if not attractor.period:
-            for row in inside:  # a point after the other
-                streak = np.where(row, streak + 1, 0)
-                row[:] = streak >= STREAK
-        first = np.where(inside.any(axis=0), inside.argmax(axis=0), points.shape[1])
-        label, when = np.where(first < when, number, label), np.minimum(first, when)
-    return label, when, streak
+        attractors, first, search = attractors + _unknown(osc, now, attractors, options), last, 2 * search
 
 
 def _unknown(osc, states, known, options):
@@ -151,7 +144,7 @@ def _unknown(osc, states, known, options):
     sample = states[:, :: -(-states.shape[1] // _SAMPLE)]
     sign = (-1.0) ** np.arange(2 * LONGEST + 1)
     half = np.arange(2 * LONGEST + 1) * osc.period / 2
-    returns = integrate(_family(osc, sample), sample, half, **options).states * sign[:, None]
+    returns = integrate(copies(osc, sample), sample, half, **options).states * sign[:, None]
     distance = np.hypot(*(returns[:, 1:] - sample[:, None]))
     # The first near return may be to an orbit that has just doubled its period, the nearest to one not yet doubled.
     least = distance.min(axis=0)
@@ -175,7 +168,7 @@ def _mirrored(osc, state, multipliers, halves, options):
 
         def follow(states, repeats):
             t = np.array([0.0, repeats * halves * osc.period / 2])
-            return (-1) ** (repeats * halves) * integrate(_family(osc, states), states, t, **options).states[:, 1]
+            return (-1) ** (repeats * halves) * integrate(copies(osc, states), states, t, **options).states[:, 1]
 
         region = trap(follow, point, half_return(osc, point, halves).derivative[:, :, 0])
         if region is not None:
@@ -188,15 +181,15 @@ def _mirrored(osc, state, multipliers, halves, options):
 def _chaotic(osc, states, known, options):
     """The chaotic attractors on which the states (2, n) are, a tuple; none if one of them is caught after all."""
     sample = states[:, :: -(-states.shape[1] // _WITNESSES)]
-    points = _points(osc, sample, _PROOF, options)
-    if np.any(_look(known, points, 0)[0] != UNRESOLVED):
+    points = points_of(osc, sample, _PROOF, options)
+    if np.any(look([(one.period, one.region) for one in known], points, 0)[0] != UNRESOLVED):
         return ()
-    spectrum = lyapunov_spectrum(_family(osc, sample), sample, periods=200, transient=0, k=1, **options)
+    spectrum = lyapunov_spectrum(copies(osc, sample), sample, periods=200, transient=0, k=1, **options)
     if np.any(spectrum.exponents <= 3 * spectrum.error):
         return ()
-    half = integrate(_family(osc, sample), sample, np.linspace(0, 10, 161) * osc.period, **options).states
-    mirror = -integrate(_family(osc, sample), sample, np.array([0.0, osc.period / 2]), **options).states[:, 1]
-    points = np.concatenate([points, _points(osc, mirror, _PROOF, options)], axis=2)
+    half = integrate(copies(osc, sample), sample, np.linspace(0, 10, 161) * osc.period, **options).states
+    mirror = -integrate(copies(osc, sample), sample, np.array([0.0, osc.period / 2]), **options).states[:, 1]
+    points = np.concatenate([points, points_of(osc, mirror, _PROOF, options)], axis=2)
     places = [_place(x) for x in half[0].T]
     places = np.array(places + [{"left": "right", "right": "left"}.get(place, place) for place in places])
     found = []
@@ -221,19 +214,3 @@ def _same(one, other):
 
 def _place(x):
     return "right" if np.all(x > 0) else "left" if np.all(x < 0) else "both"
-
-
-def _family(osc, states):
-    return replace(osc, mu=np.full(states.shape[1], osc.mu))
-
-
-def _points(osc, states, periods, options):
-    """States (2, periods + 1, n) at each phase 0, from the present one on."""
-    return integrate(_family(osc, states), states, np.arange(periods + 1) * osc.period, **options).states
-
-
-def _to_phase_zero(osc, states, phase, options):
-    start = checks.parameter("phase", phase) % (2 * np.pi) / osc.omega
-    if start == 0:
-        return states
-    return integrate(_family(osc, states), states, np.array([start, osc.period]), **options).states[:, 1]

@@ -46,18 +46,22 @@ class Basins(NamedTuple):
         return np.array([*kinds, KINDS.index("unresolved")])
 
 
-def basins(osc, x, v, attractors=None, periods=200, phase=0.0, **options):
+def basins(
+    osc, x, v, attractors=None, periods=200, phase=0.0, executor=None, progress=None, checkpoint=None, **options
+):
     """Basins of the starts (x, v) on a grid at the forcing phase `phase`.
 
     osc : a single oscillator; x (nx,), v (nv,) increasing
     attractors : as from `find_attractors`, which is asked by default; those met on the way are added
     periods : forcing periods after which a start is left unresolved
-    options : method and options as for `duffing.flow.integrate`; errors as there
+    executor, progress, checkpoint : as for `settle`
+    options, errors : method and options as for `duffing.flow.integrate`
     """
     x, v = checks.times(x, "x"), checks.times(v, "v")
     known = find_attractors(osc, **options) if attractors is None else attractors
     starts = np.reshape(np.meshgrid(x, v), (2, -1))
-    settled = settle(osc, starts, known, periods, phase, **options)
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    settled = settle(osc, starts, known, periods, phase, **run, **options)
     grid = (v.size, x.size)
     return Basins(x, v, phase, settled.labels.reshape(grid), settled.periods.reshape(grid), settled.attractors)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import checks
 from ..flow import integrate
+from ..sweep import block_for, over_blocks
 
 LEFT, RIGHT, LARGE, IRREGULAR = range(4)
 NAMES = ("left well", "right well", "large orbit", "irregular")
@@ -19,21 +20,29 @@ LAST = 4  # periods that are read, unless more are asked for
 _REPEATS = 0.05  # distance in (x, v) of successive stroboscopic points of a motion that repeats itself
 
 
-def fate(osc, states, periods=60, last=LAST, **options):
+def fate(osc, states, periods=60, last=LAST, executor=None, progress=None, checkpoint=None, **options):
     """Fates (*family) of the states (2, *family) at phase 0 after so many forcing periods.
 
-    osc : a family, or a single oscillator with states (2, *shape); options : as for `duffing.flow.integrate`
+    osc : a family, or a single oscillator with states (2, *shape)
     last : periods at the end that are read. Chaos may stay in one well for a few: where it is likely, read more.
+    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`
+    options, errors : method and options as for `duffing.flow.integrate`
     """
     checks.count("periods", periods, least=checks.count("last", last) + 1)
     states = np.asarray(states, dtype=float)
     if not checks.model(osc).shape and states.ndim > 1:
         osc = replace(osc, mu=np.full(states.shape[1:], osc.mu))
-    t = np.append(0, periods - last + np.arange(last * LOOKS + 1) / LOOKS)
-    # One frequency: the same times for all members, which the integrators need to check only once.
-    t = np.broadcast_to(osc.period, osc.shape).ravel() * t[:, None] if np.ndim(osc.omega) else osc.period * t
-    path = integrate(osc, checks.state(states, osc.shape, "states"), t, **options).states
-    return read(path[:, 1:], last).reshape(osc.shape)
+    state, task = checks.state(states, osc.shape, "states"), {"periods": periods, "last": last, **options}
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    return over_blocks(_fates, osc, state, task, block=block_for(periods, **options), **run)[0].reshape(osc.shape)
+
+
+def _fates(osc, state, periods, last, **options):
+    """What `fate` does with a block: array (1, n)."""
+    t = np.append(0, periods - last + np.arange(last * LOOKS + 1) / LOOKS)[:, None] * osc.period
+    if np.ptp(osc.period) == 0:
+        t = t[:, 0]  # the same for all members, which the integrators need to check only once
+    return read(integrate(osc, state, t, **options).states[:, 1:], last)[None]
 
 
 def read(path, last=LAST):

@@ -6,16 +6,18 @@ forcing periods after which it never leaves the neighbourhood of that periodic o
 the end: a near miss counts as wandering.
 """
 
-from dataclasses import fields, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import checks
 from ..flow import integrate, stroboscopic_times
+from ..oscillator import Duffing
+from ..sweep import block_for, over_blocks
 
 LONGEST = 6  # longest period, in forcing periods, of an orbit that is recognised
 REPEATS = 12  # successive returns that must agree
+_TYPICAL = 160  # periods after which most orbits are captured
 
 
 class Lifetimes(NamedTuple):
@@ -37,8 +39,9 @@ class Lifetimes(NamedTuple):
 
 
 def lifetimes(
-    osc, state, periods=1000, settling=150, radius=0.1, tolerance=1e-4, block=40, tangents=0, method="auto", **options
-):
+    osc, state, periods=1000, settling=150, radius=0.1, tolerance=1e-4, block=40, tangents=0,
+    executor=None, progress=None, checkpoint=None, **options,
+):  # the problem, then how it is run  # fmt: skip
     """Lifetimes up to `periods` of the family's orbits from `state` at t = 0.
 
     state : (2,) for all members or (2, *family)
@@ -49,7 +52,8 @@ def lifetimes(
     block : periods between two looks, more than LONGEST + REPEATS; the lifetime of an orbit that settles in time
         depends on it only through the point from which it is read backwards
     tangents : 1 for the growth of a tangent vector, 0 for none
-    method, options, errors : as for `duffing.flow.integrate`
+    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`
+    options, errors : method and options as for `duffing.flow.integrate`
     """
     watched = checks.count("periods", periods) + checks.count("settling", settling, least=0)
     radius, tolerance = checks.positive("radius", radius), checks.positive("tolerance", tolerance)
@@ -58,18 +62,44 @@ def lifetimes(
     checks.choice("tangents", tangents, (0, 1))
     if checks.count("block", block) <= LONGEST + REPEATS:
         raise ValueError(f"block = {block}: must be more than {LONGEST + REPEATS}, the periods that a look takes")
-    columns, names = osc.columns(), [field.name for field in fields(osc)]
-    start = checks.state(state, osc.shape)
-    size = start.shape[1]
-    points, growth = np.zeros((2, watched + 1, size)), np.zeros((watched, size))
-    points[:, 0] = start
+    state = checks.state(state, checks.model(osc).shape)
+    task = {
+        "watched": watched,
+        "radius": radius,
+        "tolerance": tolerance,
+        "look": block,
+        "tangents": tangents,
+        **options,
+    }
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    # Most orbits are captured long before the end.
+    rows = over_blocks(_followed, osc, state, task, block=block_for(min(watched, _TYPICAL), **options), **run)
+    time, multiple, end, growth = rows[0].astype(int), rows[1].astype(int), rows[2:4], rows[4:]
+    multiple[time > periods] = 0
+    if not tangents:
+        growth = np.zeros((watched, time.size))
+    shape = osc.shape
+    return Lifetimes(
+        np.minimum(time, periods).reshape(shape),
+        (multiple > 0).reshape(shape),
+        multiple.reshape(shape),
+        end.reshape(2, *shape),
+        growth[:periods].reshape(periods, *shape),
+    )
+
+
+def _followed(osc, state, watched, radius, tolerance, look, tangents, **options):
+    """Lifetimes, periods and ends of a block, then its growth if there are tangents: (4 or 4 + watched, n)."""
+    columns, size = osc.columns(), state.shape[1]
+    points, growth = np.zeros((2, watched + 1, size)), np.zeros((watched * tangents, size))
+    points[:, 0] = state
     repeats, last = np.zeros(size, dtype=int), np.zeros(size, dtype=int)
     active = np.arange(size)
-    for first in range(0, watched, block):
-        length = min(block, watched - first)
-        part = replace(osc, **dict(zip(names, columns[:, active], strict=True)))
+    for first in range(0, watched, look):
+        length = min(look, watched - first)
+        part = Duffing(*columns[:, active])
         t = stroboscopic_times(part, length)
-        orbit = integrate(part, points[:, first, active], t, tangents=tangents, method=method, **options)
+        orbit = integrate(part, points[:, first, active], t, tangents=tangents, **options)
         points[:, first + 1 : first + length + 1, active] = orbit.states[:, 1:]
         if tangents:
             growth[first : first + length, active] = orbit.growth[0]
@@ -83,16 +113,7 @@ def lifetimes(
     found = [
         _read_backwards(points[:, : n + 1, i], q, radius) for i, (q, n) in enumerate(zip(repeats, last, strict=True))
     ]
-    time, multiple = np.transpose(found)
-    multiple[time > periods] = 0
-    end, shape = points[:, last, np.arange(size)], osc.shape
-    return Lifetimes(
-        np.minimum(time, periods).reshape(shape),
-        (multiple > 0).reshape(shape),
-        multiple.reshape(shape),
-        end.reshape(2, *shape),
-        growth[:periods].reshape(periods, *shape),
-    )
+    return np.concatenate([np.transpose(found), points[:, last, np.arange(size)], growth])
 
 
 def returns(points, tolerance):

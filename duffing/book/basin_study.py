@@ -38,13 +38,13 @@ def integrator(p, steps=STEPS):
 
 
 @remembered
-def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS):
-    """Basins of size x size starts in FRAME, at ratio times mu_c or at mu."""
+def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, **sweep):
+    """Basins of size x size starts in FRAME, at ratio times mu_c or at mu; sweep : how, as for `basins`."""
     osc, options = oscillator(p, ratio, mu), integrator(p, steps)
     x, v = (np.linspace(*ends, size) for ends in FRAME)
     # Starts of a coarser grid than by default: a small attractor that they miss is met by the picture's own starts.
     starts = np.reshape(np.meshgrid(x[:: size // 8], v[:: size // 8]), (2, -1))
-    return basins(osc, x, v, find_attractors(osc, starts, periods=120, **options), periods, **options)
+    return basins(osc, x, v, find_attractors(osc, starts, periods=120, **options), periods, **sweep, **options)
 
 
 @remembered

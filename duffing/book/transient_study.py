@@ -39,12 +39,12 @@ def between(columns, rows):
 
 
 @remembered
-def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSCILLATOR):
+def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSCILLATOR, **sweep):
     """Lifetimes of the starts `between` the wells at one forcing: time, settled, and whether in the large orbit of one
-    forcing period, each (columns * rows,)."""
+    forcing period, each (columns * rows,). sweep : how, as for `lifetimes`."""
     state = between(columns, rows)
     family = replace(osc, p=p, mu=np.full(state.shape[1], mu))
-    lived = lifetimes(family, state, periods, **integrator(p))
+    lived = lifetimes(family, state, periods, **sweep, **integrator(p))
     return lived.time, lived.settled, both_wells(family, lived, **integrator(p)) & (lived.multiple == 1)
 
 
@@ -64,11 +64,11 @@ class Escape(NamedTuple):
 
 
 @remembered
-def escape(mu, p=paper.P_SMALL, columns=16, rows=8, periods=600, since=SINCE, osc=paper.OSCILLATOR):
+def escape(mu, p=paper.P_SMALL, columns=16, rows=8, periods=600, since=SINCE, osc=paper.OSCILLATOR, **sweep):
     """The Escape of chaos for a tuple of forcings, over the orbits that wander longer than `since` periods."""
     found = np.full((8, len(mu)), np.nan)
     for k, value in enumerate(mu):
-        time, settled, large = sample(value, p, columns, rows, periods, osc)
+        time, settled, large = sample(value, p, columns, rows, periods, osc, **sweep)
         late = time > since
         found[0, k] = value
         if (settled & late).any():

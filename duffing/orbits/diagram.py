@@ -29,24 +29,29 @@ class Diagram(NamedTuple):
     scattered: np.ndarray
 
 
-def bifurcation_diagram(osc, mu, starts, transient=200, kept=40, method="auto", **options):
+def bifurcation_diagram(
+    osc, mu, starts, transient=200, kept=40, executor=None, progress=None, checkpoint=None, **options
+):
     """The Diagram of the family `osc` (its own mu is not used) over the forcings mu.
 
     mu : (n,) increasing
     starts : (2, m) x and v; the first of them also begins both sweeps
     transient, kept : forcing periods thrown away and, after them, kept, at every mu
-    method, options, errors : as for `duffing.flow.integrate`
+    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`, which carries the fresh starts; the sweeps in
+        mu go on from one forcing to the next and cannot be cut
+    options, errors : method and options as for `duffing.flow.integrate`
     """
     mu = checks.times(mu, "mu")
     starts = np.asarray(starts)
     if starts.ndim != 2 or starts.shape[0] != 2 or starts.shape[1] == 0:
         raise ValueError(f"starts has shape {starts.shape}: must be (2, m), x and v of at least one start")
-    run = {"periods": checks.count("kept", kept), "transient": transient, "method": method, **options}
+    run = {"periods": checks.count("kept", kept), "transient": transient, **options}
     forward, backward = _sweeps(osc, mu, starts[:, 0], run)
     family = osc.shape
     grid = _expanded(osc, 2, mu=np.broadcast_to(mu[:, None], (*family, mu.size, starts.shape[1])))
     state = np.broadcast_to(starts.reshape(2, *[1] * (len(family) + 1), -1), (2, *grid.shape))
-    return Diagram(mu, forward, backward, poincare_section(grid, state, **run))
+    parts = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    return Diagram(mu, forward, backward, poincare_section(grid, state, **run, **parts))
 
 
 def _sweeps(osc, mu, start, run):

@@ -1,0 +1,69 @@
+"""States are followed until an attractor catches them: a periodic one by its trapping disk, chaos by its cells.
+
+A periodic attractor has caught a state that lies in its disk, a chaotic one a state that has stayed in the cells which
+it visits for STREAK periods on end. Of an attractor only this region and its period count here.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..flow import integrate
+from ..oscillator import Duffing
+
+UNRESOLVED = -1
+STREAK = 20  # periods on end in a chaotic attractor's cells
+_CHUNK = 4  # periods between two looks at the states
+
+
+def capture(osc, state, regions, first, last, start, **options):
+    """Follow a block from the period `first` to `last` or until a region holds it: rows x, v, streak, label, when.
+
+    state : x, v and the streak, at the time `start` before the period 0, later at phase 0
+    regions : (period, Trap or Cells) of each attractor
+    """
+    one, size = Duffing(*osc.columns()[:, 0]), state.shape[1]
+    result = np.array([*state, np.full(size, UNRESOLVED), np.full(size, np.inf)])
+    live, done = np.arange(size), first
+    points = _to_phase_zero(one, state[:2], start, options)[:, None] if first == 0 else None
+    while True:
+        if points is None:
+            step = min(_CHUNK, last - done)
+            points, done = points_of(one, result[:2, live], step, options)[:, 1:], done + step
+        label, when, result[2, live] = look(regions, points, result[2, live])
+        result[:2, live] = points[:, -1]
+        hit = label != UNRESOLVED
+        result[3, live[hit]], result[4, live[hit]] = label[hit], done - points.shape[1] + 1 + when[hit]
+        live, points = live[~hit], None
+        if live.size == 0 or done == last:
+            return result
+
+
+def look(regions, points, streak):
+    """Label and number of the first of the points (2, c, n) that is caught, and the streaks (n,) in chaotic cells."""
+    label, when = np.full(points.shape[2], UNRESOLVED), np.full(points.shape[2], points.shape[1])
+    for number, (period, region) in enumerate(regions):
+        inside = region.holds(points)
+        if not period:
+            for row in inside:  # a point after the other
+                streak = np.where(row, streak + 1, 0)
+                row[:] = streak >= STREAK
+        first = np.where(inside.any(axis=0), inside.argmax(axis=0), points.shape[1])
+        label, when = np.where(first < when, number, label), np.minimum(first, when)
+    return label, when, streak
+
+
+def copies(osc, states):
+    """A family of one oscillator for so many states (2, n)."""
+    return replace(osc, mu=np.full(states.shape[1], osc.mu))
+
+
+def points_of(osc, states, periods, options):
+    """States (2, periods + 1, n) at each phase 0, from the present one on."""
+    return integrate(copies(osc, states), states, np.arange(periods + 1) * osc.period, **options).states
+
+
+def _to_phase_zero(osc, states, start, options):
+    if start == 0:
+        return states
+    return integrate(copies(osc, states), states, np.array([start, osc.period]), **options).states[:, 1]
