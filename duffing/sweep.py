@@ -87,9 +87,12 @@ def over_blocks(
     # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own.
     unseen = executor is None and progress is None and checkpoint is None
     whole = unseen and (dwindling or total <= 2 * here * block)
-    inside = here if whole or (executor is not None and threads is not None) else 1
+    inside = here if executor is not None and threads is not None else 1
     block = total if whole else block
     family = _Family(osc, state, block * -(-total // (block * TASKS)))
+    if whole:  # here, in the caller's thread, where an interrupt arrives at once
+        family.enter(0, _run(*family.part(0), function, {**options, "threads": here}, total, None), lambda done: None)
+        return family.result
     store = None if checkpoint is None else Checkpoint(checkpoint, function, options)
     # Threads see it and stop between two blocks; processes are ended, and a cluster is let be.
     stop = threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None

@@ -12,8 +12,8 @@ from duffing.book import figures_maps, maps
 FOLDER = Path("_build/maps")
 PLANES = {
     "p-mu": ("p", 0.1, 3.0, paper.OSCILLATOR, "damping exponent $p$"),
-    "omega-mu-p0.1": ("omega", 0.4, 2.4, paper.OSCILLATOR, r"forcing frequency $\omega$ (dimensionless)"),
-    "omega-mu-p1": ("omega", 0.4, 2.4, replace(paper.OSCILLATOR, p=1.0), r"forcing frequency $\omega$ (dimensionless)"),
+    "omega-mu-p0.1": ("omega", 0.4, 2.0, paper.OSCILLATOR, r"forcing frequency $\omega$ (dimensionless)"),
+    "omega-mu-p1": ("omega", 0.4, 2.0, replace(paper.OSCILLATOR, p=1.0), r"forcing frequency $\omega$ (dimensionless)"),
 }
 
 

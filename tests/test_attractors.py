@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from duffing import Duffing, poincare_section
-from duffing.attraction.attractors import UNRESOLVED, find_attractors, settle
+from duffing.attraction.attractors import UNRESOLVED, Attractor, Cells, find_attractors, settle
 
 RK4 = {"method": "rk4", "steps_per_period": 100}
 THREE = Duffing(mu=0.2)  # an orbit in each well and a large one round both
@@ -157,3 +157,16 @@ def test_invalid_requests_are_refused_by_name():
         settle(THREE, np.zeros((3, 5)))
     with pytest.raises(ValueError, match=r"^periods = 0"):
         settle(THREE, grid(), periods=0)
+
+
+def test_two_chaotic_attractors_each_count_their_own_stay():
+    """Cells over each well, as of chaos in it: a stay in the one is not ended by not staying in the other."""
+    osc = Duffing(mu=0.05)
+    left, right = (Cells(np.array([low, -1.0]), np.ones((75, 100), dtype=bool)) for low in (-1.5, 0.0))
+    chaos = tuple(Attractor(place, 0, np.empty((2, 0)), 0.5, np.empty(0), region)
+                  for place, region in (("left", left), ("right", right)))  # fmt: skip
+    states = np.array([[-1.0, 1.0], [0.0, 0.0]])
+    for pair, expected in ((chaos, [0, 1]), (chaos[::-1], [1, 0])):
+        settled = settle(osc, states, pair, periods=30, **RK4)
+        np.testing.assert_array_equal(settled.labels, expected)
+        np.testing.assert_array_equal(settled.periods, [19, 19])

@@ -122,21 +122,23 @@ def _settle(osc, states, attractors, periods, phase, run, options):
     checks.count("periods", periods)
     now = checks.state(states, states.shape[1:], "states")
     labels, caught = np.full(now.shape[1], UNRESOLVED), np.full(now.shape[1], np.inf)
-    live, streak = np.arange(now.shape[1]), np.zeros(now.shape[1])
+    live, streaks = np.arange(now.shape[1]), np.zeros((len(attractors), now.shape[1]))
     first, search = 0, 2 * LONGEST
     start = checks.parameter("phase", phase) % (2 * np.pi) / osc.omega
     while True:
         last = min(search, periods)
         regions = tuple((one.period, one.region) for one in attractors)
         task = {"regions": regions, "first": first, "last": last, "start": start, **options}
-        size, state = block_for(last - first, **options), np.vstack([now, streak])
+        size, state = block_for(last - first, **options), np.vstack([now, streaks])
         rows = over_blocks(capture, copies(osc, now), state, task, block=size, dwindling=True, **run)
-        label, hit = rows[3].astype(int), rows[3] != UNRESOLVED
-        labels[live[hit]], caught[live[hit]] = label[hit], rows[4, hit]
-        live, now, streak = live[~hit], rows[:2, ~hit], rows[2, ~hit]
+        label, hit = rows[0].astype(int), rows[0] != UNRESOLVED
+        labels[live[hit]], caught[live[hit]] = label[hit], rows[1, hit]
+        live, now, streaks = live[~hit], rows[2:4, ~hit], rows[4:, ~hit]
         if live.size == 0 or last == periods:
             return Settled(labels, caught, attractors), now
-        attractors, first, search = attractors + _unknown(osc, now, attractors, options), last, 2 * search
+        found = _unknown(osc, now, attractors, options)
+        streaks = np.vstack([streaks, np.zeros((len(found), live.size))])
+        attractors, first, search = attractors + found, last, 2 * search
 
 
 def _unknown(osc, states, known, options):
@@ -182,7 +184,8 @@ def _chaotic(osc, states, known, options):
     """The chaotic attractors on which the states (2, n) are, a tuple; none if one of them is caught after all."""
     sample = states[:, :: -(-states.shape[1] // _WITNESSES)]
     points = points_of(osc, sample, _PROOF, options)
-    if np.any(look([(one.period, one.region) for one in known], points, 0)[0] != UNRESOLVED):
+    regions = [(one.period, one.region) for one in known]
+    if np.any(look(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED):
         return ()
     spectrum = lyapunov_spectrum(copies(osc, sample), sample, periods=200, transient=0, k=1, **options)
     if np.any(spectrum.exponents <= 3 * spectrum.error):

@@ -17,40 +17,41 @@ _CHUNK = 4  # periods between two looks at the states
 
 
 def capture(osc, state, regions, first, last, start, **options):
-    """Follow a block from the period `first` to `last` or until a region holds it: rows x, v, streak, label, when.
+    """Follow a block from the period `first` to `last` or until a region holds it: rows label, when, x, v, streaks.
 
-    state : x, v and the streak, at the time `start` before the period 0, later at phase 0
+    state : x, v at the time `start` before the period 0, later at phase 0, and a streak for each region
     regions : (period, Trap or Cells) of each attractor
     """
     one, size = Duffing(*osc.columns()[:, 0]), state.shape[1]
-    result = np.array([*state, np.full(size, UNRESOLVED), np.full(size, np.inf)])
+    result = np.array([np.full(size, UNRESOLVED), np.full(size, np.inf), *state])
     live, done = np.arange(size), first
     points = _to_phase_zero(one, state[:2], start, options)[:, None] if first == 0 else None
     while True:
         if points is None:
             step = min(_CHUNK, last - done)
-            points, done = points_of(one, result[:2, live], step, options)[:, 1:], done + step
-        label, when, result[2, live] = look(regions, points, result[2, live])
-        result[:2, live] = points[:, -1]
+            points, done = points_of(one, result[2:4, live], step, options)[:, 1:], done + step
+        label, when, result[4:, live] = look(regions, points, result[4:, live])
+        result[2:4, live] = points[:, -1]
         hit = label != UNRESOLVED
-        result[3, live[hit]], result[4, live[hit]] = label[hit], done - points.shape[1] + 1 + when[hit]
+        result[0, live[hit]], result[1, live[hit]] = label[hit], done - points.shape[1] + 1 + when[hit]
         live, points = live[~hit], None
         if live.size == 0 or done == last:
             return result
 
 
-def look(regions, points, streak):
-    """Label and number of the first of the points (2, c, n) that is caught, and the streaks (n,) in chaotic cells."""
+def look(regions, points, streaks):
+    """Label and number of the first of the points (2, c, n) that is caught; the streaks (len(regions), n) in cells."""
     label, when = np.full(points.shape[2], UNRESOLVED), np.full(points.shape[2], points.shape[1])
+    streaks = streaks.copy()
     for number, (period, region) in enumerate(regions):
         inside = region.holds(points)
         if not period:
             for row in inside:  # a point after the other
-                streak = np.where(row, streak + 1, 0)
-                row[:] = streak >= STREAK
+                streaks[number] = np.where(row, streaks[number] + 1, 0)
+                row[:] = streaks[number] >= STREAK
         first = np.where(inside.any(axis=0), inside.argmax(axis=0), points.shape[1])
         label, when = np.where(first < when, number, label), np.minimum(first, when)
-    return label, when, streak
+    return label, when, streaks
 
 
 def copies(osc, states):

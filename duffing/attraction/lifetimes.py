@@ -63,17 +63,10 @@ def lifetimes(
     if checks.count("block", block) <= LONGEST + REPEATS:
         raise ValueError(f"block = {block}: must be more than {LONGEST + REPEATS}, the periods that a look takes")
     state = checks.state(state, checks.model(osc).shape)
-    task = {
-        "watched": watched,
-        "radius": radius,
-        "tolerance": tolerance,
-        "look": block,
-        "tangents": tangents,
-        **options,
-    }
+    task = {"watched": watched, "radius": radius, "tolerance": tolerance, "look": block, "tangents": tangents}
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
-    # Most orbits are captured long before the end.
-    rows = over_blocks(_followed, osc, state, task, block=block_for(min(watched, _TYPICAL), **options), **run)
+    size = block_for(min(watched, _TYPICAL), **options)
+    rows = over_blocks(_followed, osc, state, task | options, block=size, dwindling=True, **run)
     time, multiple, end, growth = rows[0].astype(int), rows[1].astype(int), rows[2:4], rows[4:]
     multiple[time > periods] = 0
     if not tangents:

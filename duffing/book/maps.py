@@ -56,9 +56,10 @@ def thresholds(field, first, last, points=120, crosses=9, osc=paper.OSCILLATOR):
     checks.choice("field", field, ("p", "omega"))
     line, few = np.linspace(first, last, points), np.linspace(first, last, crosses)
     mu_c = critical_amplitude(replace(osc, **{field: line}))
+    fixed = {"alpha": osc.alpha, "delta": osc.delta, "gamma": osc.gamma}
     if field == "p":
-        few = np.array(with_tangency(tuple(few), alpha=osc.alpha, omega=osc.omega, delta=osc.delta, gamma=osc.gamma))
+        few = np.array(with_tangency(tuple(few), omega=osc.omega, **fixed))
     else:
-        few = np.array([omega for omega in few if with_tangency((osc.p,), alpha=osc.alpha, omega=omega)])
+        few = np.array([omega for omega in few if with_tangency((osc.p,), omega=omega, **fixed)])
     mu_t = homoclinic_tangency(replace(osc, **{field: few})) if few.size else few
     return (line, mu_c), (few, mu_t)
