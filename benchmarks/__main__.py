@@ -58,7 +58,7 @@ def alone(record, rounds, size, quick):
     for p, tangent in cases:
         what = "state and tangent" if tangent else "state"
         print(f"\nTime to an error of the {what}, p = {p}, over that in friction time; median (range)", flush=True)
-        found, confirmed = precision.measure(p, tangent, min(rounds, 3))
+        found, confirmed = precision.measure(p, tangent, rounds)
         record["precision"][f"{p:g}, {what}"] = {
             "reference confirmed to": float(f"{confirmed:.1g}"),
             **{f"{error:.0e}": {r.name: r.record() for r in results} for error, results in found.items()},

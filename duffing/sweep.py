@@ -21,7 +21,8 @@ from .parallel.workers import completed, is_executor
 
 BLOCK = 256  # members, where the caller knows nothing better
 # Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
-# enough that an interrupted run, whose blocks under way come to their end, is over within a second.
+# enough that an interrupted run, whose blocks under way come to their end, is over within a second (if it is not asked
+# for so many thousand periods that the fewest members take longer).
 BLOCK_SECONDS = 0.2
 # A task is one block, or several in a family so large that there would be more tasks than this: dask's scheduler takes
 # milliseconds for a task, a folder of kept tasks should hold no millions of files.
@@ -29,8 +30,9 @@ TASKS = 4096
 
 # Roughly the seconds that a member takes for a period: by Runge-Kutta, with 500 steps, and in friction time. There it
 # varies by ten, with tolerance, forcing and p.
-_RK4, _FRICTION_TIME = 1e-5, 5e-5
-# Members that they advance by one instruction, and in one go (with more than 16 lanes friction time gains little).
+_RK4, _FRICTION_TIME = 5e-6, 5e-5
+# Members that they advance by one instruction, and in one go. In friction time a block has no more than 16, half of the
+# kernel's lanes: twice as many gain a few parts in a hundred, and where they creep they take too long for a block.
 _RK4_LANES, _FRICTION_LANES = (8, 64), (8, 16)
 # Seconds to wait after an error for what is nearly done, where it would be kept: dask reports an error at once, but
 # has yet to fetch results that were there before it.

@@ -13,9 +13,10 @@ from sweep_cases import PLANE, marked, marks, starts
 
 from duffing.sweep import over_blocks
 
-# A run of many minutes on the executor that the command line names.
+# A run of many minutes on the executor that the command line names, or one that is not cut into blocks.
 SCRIPT = """
 import sys
+import threading
 from functools import partial
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -34,6 +35,12 @@ if __name__ == "__main__":
     processes = partial(ProcessPoolExecutor, 2, mp_context=get_context("spawn"))
     if kind == "threads":
         run(None)
+    elif kind == "whole":
+        from duffing.attraction.attractors import settle
+        osc, states = Duffing(p=0.1, mu=0.27), np.random.default_rng(0).uniform(-1, 1, (2, 100_000))
+        settle(osc, states[:, :4], periods=4)
+        threading.Timer(2.0, started, (0, 0)).start()  # in the midst of it
+        settle(osc, states, periods=100_000)
     elif kind == "function":
         run(processes)
     elif kind == "processes":
@@ -60,6 +67,7 @@ def alive(group):
     [
         ("threads", "terminal"),
         ("threads", "kill"),
+        ("whole", "kill"),
         ("processes", "terminal"),
         ("function", "kill"),
         ("dask", "terminal"),

@@ -68,8 +68,9 @@ def follow(parameters, states, times, component, beyond, tangents, control, resu
     """Carry each member from states (N, 2) through the times (N, n), status (N,).
 
     component : T, or W for the first crossing of v = 0 with x > beyond before the time times[:, 1]
+    tangents : 0, 1 or 2 of them
     control : rtol, atol, bound on the steps of an interval, relaxation times a step above which a creep begins
-    results : (N, n - 1, 9), in the order of RESULTS
+    results : (N, n - 1, 9), in the order of RESULTS; evaluations : (N,) of the force
     """
     a, kind, waiting, flying = stack(BLOCK), LINEAR, 0, min(status.size, WIDTH)
     for l in range(flying):
