@@ -1,7 +1,7 @@
 """Writes _build/maps/basins-*.png: the basins of attraction at full resolution, 512 x 512 starts or as many as asked.
 
-python scripts/maps_basins.py [starts a side]; p = 1 is some seconds a picture, p = 0.1 some minutes. Each is kept block
-by block in _build/maps/blocks: an interrupted run goes on where it was.
+python scripts/maps_basins.py [starts a side]; p = 1 is some seconds a picture, p = 0.1 about a minute. Each is kept
+block by block in _build/maps/blocks: an interrupted run goes on where it was.
 """
 
 import sys

@@ -7,6 +7,7 @@ import pytest
 
 from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency
 from duffing.attraction.basins import KINDS
+from duffing.attraction.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.attraction.contact import first_contact, homoclinic_strips
 from duffing.attraction.fates import IRREGULAR, LARGE, LEFT, RIGHT
 from duffing.book import basin_study
@@ -44,10 +45,46 @@ def test_a_bracket_that_holds_no_contact_is_refused():
 
 
 def test_dimension_leaves_one_at_the_tangency_for_linear_damping():
-    values, errors, crossings = basin_study.line_dimensions(1.0, (0.9, 1.02, 2.0), most=15_000)
-    assert abs(values[0] - 1) < max(3 * errors[0], 0.02)
-    assert np.all(np.diff(values) > 0.2) and values[2] < 2
-    assert np.all(np.diff(crossings) > 0)
+    ratios = (0.9995, 1.0005, 2.0)
+    values, errors, number = basin_study.line_dimensions(1.0, ratios, most=30_000)
+    assert ratios[0] < homoclinic_tangency(Duffing()) / critical_amplitude(Duffing()) < ratios[1]
+    assert abs(values[0] - 1) <= errors[0] + 1e-12 < 0.02  # rounding: the error itself is none where no strip is left
+    assert values[1] - 1 > 3 * errors[1] > 0
+    assert np.all(np.diff(values) > 0.15) and values[2] < 2
+    assert np.all(np.diff(number) > 0)
+
+
+def test_crowding_crossings_below_the_tangency_have_dimension_one_when_the_cells_part_them():
+    values, errors, number = basin_study.line_dimensions(0.5, (0.994, 0.994), most=(10_000, 40_000))
+    assert number[0] == number[1]  # four times the starts find no strip more
+    assert abs(values[1] - 1) <= errors[1] + 1e-12 < 0.02 < values[0] - 1
+
+
+def test_friction_time_fixed_steps_and_random_starts_see_the_same_dimension_at_small_p():
+    most, ratios = 3000, (0.96, 0.99, 1.1)
+    values, errors, _ = basin_study.line_dimensions(0.1, ratios, most)
+    for ratio, value in zip(ratios, values, strict=True):
+        fixed = {"method": "rk4", "steps_per_period": 600}
+        line = line_of_starts(basin_study.oscillator(0.1, ratio), *basin_study.AXIS, 16, **fixed)
+        assert value == pytest.approx(boundary_dimension(crossings(line, most=most)).value, abs=0.03)
+    assert abs(values[0] - 1) <= errors[0] + 1e-12 < 0.02
+    assert np.all(values[1:] - 1 > 3 * errors[1:])
+    random, doubt = basin_study.random_dimensions(0.1, (1.1,), starts=2**9)
+    assert abs(values[2] - random[0]) < 3 * np.hypot(errors[2], doubt[0])
+
+
+def test_more_starts_see_more_crossings_at_small_p_where_the_boundary_is_a_fractal():
+    _, _, curve = basin_study.line_dimensions(0.1, (0.96, 0.96), (2000, 6000))
+    values, errors, fractal = basin_study.line_dimensions(0.1, (0.98, 0.98), (2000, 6000))
+    assert curve[0] == curve[1] and fractal[1] > 1.3 * fractal[0]
+    assert np.all(values - 1 > 3 * errors)
+
+
+def test_strips_that_fixed_steps_invent_at_small_p_are_not_in_friction_time():
+    ratio, most = 0.92, 6000
+    seen = basin_study.strips(0.1, ratio, most)
+    line = line_of_starts(basin_study.oscillator(0.1, ratio), *basin_study.AXIS, 16, method="rk4", steps_per_period=300)
+    assert seen.left.size == 2 < crossings(line, most=most).left.size
 
 
 def test_line_and_random_starts_agree_on_the_dimension():
@@ -57,8 +94,6 @@ def test_line_and_random_starts_agree_on_the_dimension():
 
 
 def test_twice_the_steps_and_more_periods_leave_the_dimension():
-    from duffing.attraction.boundary import boundary_dimension, crossings, line_of_starts
-
     found = [
         boundary_dimension(crossings(line_of_starts(linear(1.2), *basin_study.AXIS, n, **options), most=20_000))
         for n, options in ((24, {"method": "rk4", "steps_per_period": 96}), (36, RK4))

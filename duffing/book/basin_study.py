@@ -57,15 +57,22 @@ def step_changes(ratios, steps=(32, 64, 128, 256), size=128):
 @remembered
 def strips(p, ratio, most=30_000):
     """The boundary's Crossings with AXIS, by Runge-Kutta steps: a smooth map down to rounding, which the finest strips
-    need. Twice the steps or the periods shift a strip, but not the dimension."""
-    options = {"method": "rk4", "steps_per_period": 96 if p == 1 else 300}
+    need. Twice the steps or the periods shift a strip, but not the dimension. Below p = 1/2 in friction time: there
+    the fixed steps invent thin strips, other ones with other steps, at forcings where the boundary is a curve."""
+    rk4 = {"method": "rk4", "steps_per_period": 96 if p == 1 else 300}
+    options = rk4 if p >= 0.5 else {"method": "friction", "rtol": 1e-9, "atol": 1e-11}
     return crossings(line_of_starts(oscillator(p, ratio), *AXIS, periods=24 if p == 1 else 16, **options), most=most)
 
 
 @remembered
 def line_dimensions(p, ratios, most=30_000):
-    """D from the crossings with AXIS at each ratio mu/mu_c: (values, errors, numbers of crossings), each (n,)."""
-    found = [strips(p, ratio, most) for ratio in ratios]
+    """D from the crossings with AXIS at each ratio mu/mu_c: (values, errors, numbers of crossings), each (n,).
+
+    most : starts that are followed, for all ratios or for each. A few crossings that crowd look like a fractal until
+    the cells are finer than the gaps between them: just below the tangency it takes more starts than above.
+    """
+    most = np.broadcast_to(most, len(ratios)).tolist()
+    found = [strips(p, ratio, number) for ratio, number in zip(ratios, most, strict=True)]
     values, errors = np.array([boundary_dimension(one) for one in found]).T
     return values, errors, np.array([one.left.size for one in found])
 
