@@ -1,5 +1,7 @@
 """Chaos compared: averages over the wandering alone, and the energy that the damping takes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -80,16 +82,56 @@ def test_at_equal_finds_the_value_on_a_line_and_its_error():
 
 
 def test_chaotic_share_is_one_in_the_window_and_zero_on_regular_motion():
-    share = comparison_study.chaotic_share((0.1, 0.27), 0.1, columns=2, rows=2, periods=60)
-    np.testing.assert_array_equal(share, [0, 1])
+    found = comparison_study.chaotic_starts((0.1, 0.27), 0.1, columns=2, rows=2, periods=60)
+    np.testing.assert_array_equal(found.share, [0, 1])
+    assert np.isnan(found.exponent[0]) and np.isnan(found.error[0])  # no chaos, no mean
+    assert found.largest[0] < 0 < found.exponent[1] < found.largest[1]
+
+
+def test_the_exponent_of_chaotic_starts_is_the_mean_over_those_alone_with_its_standard_error():
+    mu, starts = 0.25, small_p.starts(6, 4)
+    found = comparison_study.chaotic_starts((mu,), 1.0, columns=6, rows=4, periods=80)
+    alone = lyapunov_spectrum(Duffing(p=1.0, mu=np.full(24, mu)), starts, 80, 40, k=1, **STEP).exponents[0]
+    chaotic = alone[alone > comparison_study.CHAOTIC]
+    assert 1 < chaotic.size < 24
+    assert found.share[0] == chaotic.size / 24 and found.largest[0] == alone.max()
+    assert found.exponent[0] == pytest.approx(chaotic.mean(), rel=1e-12)
+    assert found.error[0] == pytest.approx(chaotic.std(ddof=1) / np.sqrt(chaotic.size), rel=1e-12)
+
+
+def test_comparisons_are_the_same_where_finished_blocks_are_kept(tmp_path):
+    run = {"checkpoint": str(tmp_path)}
+    chaotic = [comparison_study.chaotic_starts((0.25,), 1.0, 3, 2, periods=40, **how) for how in ({}, run)]
+    np.testing.assert_array_equal(*(one.largest for one in chaotic))
+    kept = len(list(tmp_path.glob("*.block")))
+    compared = [comparison_study.compared(1.0, (0.25,), 3, 2, periods=60, **how)[2] for how in ({}, run)]
+    np.testing.assert_array_equal(*compared)
+    assert 0 < kept < len(list(tmp_path.glob("*.block")))
+
+
+def test_the_lead_is_that_over_the_nearest_of_the_others():
+    exponents, errors = np.array([0.1, 0.2, 0.15]), np.array([0.003, 0.0, 0.004])
+    assert comparison_study.lead(exponents, errors) == pytest.approx(10)
+    assert comparison_study.lead(exponents[::-1], errors) < 0  # not the smallest
+
+
+def test_speeds_on_the_response_of_the_linear_oscillator():
+    """v = V cos(omega t + phase): |v| > 1 for a share 1 - 2 asin(1 / V) / pi of the time."""
+    osc = Duffing(alpha=0.4, p=1.0, omega=1.3, delta=3.0, gamma=0.0)
+    mu = 2 * np.hypot(osc.delta - osc.omega**2, osc.alpha * osc.omega) / osc.omega  # V = 2
+    state = replace(osc, mu=mu)
+    largest, fast = comparison_study.speeds_of(state, np.zeros((2, 3)), 40, 60)
+    assert largest == pytest.approx(2, rel=2e-3)
+    assert fast == pytest.approx(1 - 2 * np.arcsin(0.5) / np.pi, abs=0.03)
+    assert comparison_study.speeds(0.85, 0.1, 3, 2, 20)[1] > comparison_study.speeds(0.268, 0.1, 3, 2, 20)[1] + 0.3
 
 
 def test_equal_ratios_are_multiples_of_the_critical_amplitude():
     ratios, p = (1.5, 3.3), (1.0, 2.0)
     table = comparison_study.at_equal_ratio(ratios, p, columns=4, rows=3, periods=80)
-    assert table.shape == (2, 2)
+    assert all(part.shape == (2, 2) for part in table)
     mu = 3.3 * float(critical_amplitude(Duffing(p=1.0)))
-    assert table[1, 0] == comparison_study.chaotic_share((mu,), 1.0, columns=4, rows=3, periods=80)[0] > 0
+    assert table.share[1, 0] == comparison_study.chaotic_starts((mu,), 1.0, columns=4, rows=3, periods=80).share[0] > 0
 
 
 def test_compared_gives_the_wandering_of_each_forcing():

@@ -64,6 +64,25 @@ def test_crises_lie_between_a_forcing_without_and_one_with_captures_by_the_large
     assert found.large[0, 0] == 0 < found.large[0, 1]
 
 
+def test_crisis_at_small_p_lies_between_chaos_that_stays_and_chaos_that_the_large_orbit_captures():
+    at = transient_study.crises((0.1,), points=200, steps=3)[0]
+    found = transient_study.escape((at - 0.003, at + 0.004), columns=8, rows=5, periods=600)
+    assert np.all(found.wanderers == 40)  # no small orbit is left
+    assert np.isnan(found.mean[0]) and found.bound[0] > 1000
+    assert found.large[0, 0] == found.small[0, 0] == found.small[0, 1] == 0 < found.large[0, 1]
+    assert found.mean[1] + 3 * found.error[1] < 600
+
+
+def test_wanderers_are_the_starts_that_rates_and_means_are_taken_from():
+    found = transient_study.escape((0.15, 0.264), columns=10, rows=6, periods=300)
+    times = [transient_study.sample(mu, columns=10, rows=6, periods=300)[0] for mu in (0.15, 0.264)]
+    late = [time[time > transient_study.SINCE] for time in times]
+    np.testing.assert_array_equal(found.wanderers, [part.size for part in late])
+    assert found.wanderers[0] < found.wanderers[1] < 60
+    exposure = np.sum(late[1] - transient_study.SINCE)
+    assert found.small[0, 1] == pytest.approx(np.sum(late[1] < 300) / exposure)
+
+
 def test_edge_falls_with_the_forcing():
     distance = transient_study.edge((0.268, 0.272, 0.277), points=100, **STEP)
     assert distance[0] > distance[1] > 0 > distance[2]

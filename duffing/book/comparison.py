@@ -36,9 +36,12 @@ class Wandering(NamedTuple):
     periods: np.ndarray
 
 
-def wandering(osc, starts, periods=240, method="auto", **options):
+def wandering(
+    osc, starts, periods=240, method="auto", executor=None, progress=None, checkpoint=None, **options,
+):  # the problem, then how it is run  # fmt: skip
     """The Wandering of the starts (2, m) under each of the oscillators (n,), watched for `periods` forcing periods.
 
+    executor, progress, checkpoint : as for `lifetimes`
     method, options, errors : as for `duffing.flow.integrate`
     """
     starts = np.asarray(starts, dtype=float)
@@ -46,7 +49,8 @@ def wandering(osc, starts, periods=240, method="auto", **options):
     wide = Duffing(*np.repeat(osc.columns(), m, axis=1))
     state = np.tile(starts, n)
     block = min(BLOCK, checks.count("periods", periods))
-    lived = lifetimes(wide, state, periods, block=block, tangents=1, method=method, **options)
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    lived = lifetimes(wide, state, periods, block=block, tangents=1, method=method, **run, **options)
     number = np.arange(periods)[:, None]
     counted = (number >= SINCE) & (number < lived.time - UNTIL * lived.settled) & (number % block >= FRESH)
     growth = np.where(counted, lived.growth, 0.0).sum(axis=0) / wide.period

@@ -38,10 +38,15 @@ def between(columns, rows):
     return np.stack([x.ravel(), v.ravel()])
 
 
-@remembered
 def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSCILLATOR, **sweep):
     """Lifetimes of the starts `between` the wells at one forcing: time, settled, and whether in the large orbit of one
     forcing period, each (columns * rows,). sweep : how, as for `lifetimes`."""
+    return _sample(mu, p, columns, rows, periods, osc, **sweep)
+
+
+@remembered
+def _sample(mu, p, columns, rows, periods, osc, **sweep):
+    # Called in one way only, so that `sample` and `escape` share what is remembered.
     state = between(columns, rows)
     family = replace(osc, p=p, mu=np.full(state.shape[1], mu))
     lived = lifetimes(family, state, periods, **sweep, **integrator(p))
@@ -52,7 +57,7 @@ class Escape(NamedTuple):
     """mu (n,); mean (n,), error (n,) : mean lifetime in periods, nan where no capture was seen; bound (n,) : there, the
     least mean lifetime that leaves "no capture seen" a chance of 1 in 20, else nan; small, large (2, n) : rates of
     capture by the small orbits in the wells (and by others, in their windows) and by the large one, per period, and
-    their errors, nan where nothing wanders longer than `since`.
+    their errors, nan where nothing wanders longer than `since`; wanderers (n,) : number of starts that do.
     """
 
     mu: np.ndarray
@@ -61,23 +66,24 @@ class Escape(NamedTuple):
     bound: np.ndarray
     small: np.ndarray
     large: np.ndarray
+    wanderers: np.ndarray
 
 
 @remembered
 def escape(mu, p=paper.P_SMALL, columns=16, rows=8, periods=600, since=SINCE, osc=paper.OSCILLATOR, **sweep):
     """The Escape of chaos for a tuple of forcings, over the orbits that wander longer than `since` periods."""
-    found = np.full((8, len(mu)), np.nan)
+    found = np.full((9, len(mu)), np.nan)
     for k, value in enumerate(mu):
         time, settled, large = sample(value, p, columns, rows, periods, osc, **sweep)
         late = time > since
-        found[0, k] = value
+        found[0, k], found[8, k] = value, late.sum()
         if (settled & late).any():
             found[1:3, k] = exponential(time, settled, since)[:2]
         elif late.any():
             found[3, k] = np.sum(time[late] - since) / np.log(20)
         if late.any():
-            found[4:, k] = *rate(time, settled & ~large, since), *rate(time, large, since)
-    return Escape(*found[:4], found[4:6], found[6:])
+            found[4:8, k] = *rate(time, settled & ~large, since), *rate(time, large, since)
+    return Escape(*found[:4], found[4:6], found[6:8], found[8])
 
 
 @remembered
