@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import Duffing, paper, poincare_section, saddle_orbit
+from duffing import ConvergenceError, Duffing, paper, poincare_section, saddle_orbit
 from duffing.book import bifurcation_study as study
 from duffing.orbits.bifurcations import FLIP, FOLD
 from duffing.orbits.followed import amplitude, at_exponent, curves, marks, orbits_at, side_by_side, speed, stroboscopic
@@ -28,8 +28,51 @@ def test_the_same_bifurcations_are_met_at_every_exponent(branches):
 
 
 def test_what_brute_force_settles_on_is_an_orbit_of_the_branches():
-    for p in (0.1, 1.0):
-        assert np.all(study.agreement(p) < 1e-8)
+    """At every forcing for p <= 1; at p = 2 up to mu = 0.18, where chaos attracts none of the starts yet."""
+    for p in study.EXPONENTS:
+        away = study.agreement(p)
+        assert away.shape == (6, study.STARTS.shape[1])
+        assert np.all(away[: 4 if p == 2 else 6] < 1e-8)
+
+
+def test_starts_of_brute_force_reach_the_resonant_orbit_at_every_exponent(branches):
+    """A point of it that attracts, in the middle between its fold and its flip, is among the late points."""
+    for p in study.EXPONENTS:
+        on = [one for one in at_exponent(branches, p) if one.name == study.IN_WELL and len(one.found) == 3]
+        (*_, fold, flip) = (float(flaw.osc.mu) for flaw in on[0].found)
+        mu = (fold + flip) / 2
+        attracting = [
+            orbit.state
+            for orbit in orbits_at(at_exponent(branches, p), mu)[study.IN_WELL]
+            if np.abs(orbit.multipliers[0]) < 1
+        ]
+        assert len(attracting) == 2
+        osc = replace(paper.OSCILLATOR, p=p, mu=mu)
+        small, resonant = sorted((amplitude(osc, state, 2), *state) for state in attracting)
+        assert resonant[0] > 2 * small[0]
+        (late,) = [
+            points for name, points in study.brute_force(p, mu, mu + 1e-6, 2, 200).items() if name == "many starts"
+        ]
+        own = stroboscopic(osc, np.array(resonant[1:])[:, None], 2).ravel()
+        assert np.min(np.abs(late[1][:, None] - own)) < 1e-3
+
+
+def test_an_orbit_followed_in_the_exponent_is_what_a_run_settles_on_at_every_exponent():
+    one = study.in_exponent(0.2)
+    p = one.branch.parameter
+    assert (p[0], p[-1]) == (0.1, 3.0)
+    assert np.all(np.diff(p) > 0)
+    assert one.found == ()
+    assert one.branch.stable.all()
+    for k in (0, p.size // 2, p.size - 1):
+        late = poincare_section(replace(paper.OSCILLATOR, p=p[k], mu=0.2), one.branch.state[:, k] + 0.01, 300)
+        np.testing.assert_allclose(late[:, -1], one.branch.state[:, k], atol=1e-5)
+
+
+def test_an_orbit_that_ends_before_the_last_exponent_is_a_named_error():
+    """At mu = 0.249 the small orbit exists at p = 1 and ends in its fold before p = 3."""
+    with pytest.raises(ConvergenceError, match=r"mu = 0.249: the orbit does not reach p = 0.1 and 3"):
+        study.in_exponent(0.249)
 
 
 def test_stability_claimed_by_the_branches_is_what_brute_force_does(branches):
@@ -142,7 +185,7 @@ def test_brute_force_names_every_point_with_its_forcing():
     found = study.brute_force(1.0, first=0.15, last=0.16, forcings=2, transient=150)
     stable = orbits_at(at_exponent(study.branches(), 1.0), 0.15)[study.IN_WELL]
     (small,) = [orbit for orbit in stable if np.abs(orbit.multipliers[0]) < 1]
-    for name, size in (("many starts", 2 * 12 * 6), ("forward sweep", 2 * 12), ("backward sweep", 2 * 12)):
+    for name, size in (("many starts", 2 * 12 * 8), ("forward sweep", 2 * 12), ("backward sweep", 2 * 12)):
         mu, x = found[name]
         assert mu.shape == x.shape == (size,)
         assert set(mu) == {0.15, 0.16}

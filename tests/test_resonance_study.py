@@ -1,13 +1,16 @@
 """Resonance curves: the ordering of the exponents in a well, its reversal round both, and why."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from duffing import ConvergenceError, Duffing
+from duffing import ConvergenceError, Duffing, paper, poincare_section
 from duffing.book import resonance_study as resonance
 from duffing.orbits.bifurcations import FOLD
-from duffing.orbits.followed import at_exponent, curves, speed
+from duffing.orbits.continuation import BOUND
+from duffing.orbits.followed import amplitude, at_exponent, curves, speed
 from duffing.orbits.periodic import half_return, periodic_orbits
 
 
@@ -54,6 +57,76 @@ def test_in_a_well_a_smaller_exponent_gives_the_smaller_amplitude(drawn, omega, 
     amplitudes = stable_amplitudes(drawn, omega, upper)
     assert np.all(np.diff(amplitudes) > -1e-3)  # the curves of p >= 1 coincide away from the peaks, within sampling
     assert amplitudes[0] < 0.97 * amplitudes[3]
+
+
+@pytest.mark.parametrize("mu", [0.03, 0.12])
+def test_every_branch_of_the_response_ends_at_the_border_of_its_range(mu):
+    for one in resonance.response(mu):
+        assert one.branch.end == BOUND
+        assert one.branch.parameter[-1] in (0.5, 0.65, 0.9, 2.2)
+
+
+def test_a_branch_that_ends_inside_its_range_is_a_named_error():
+    """Below omega = 0.63 the orbits that turn back at p = 1 to 3 need more steps than there are."""
+    with pytest.raises(ConvergenceError, match=r"p = 3, mu = 0.12: .* ends at omega = 0\.6.*inside its range"):
+        resonance.response(0.12, p=(3.0,), turned=0.5)
+
+
+@pytest.mark.parametrize("mu", [0.03, 0.12])
+def test_superharmonic_peak_near_0_7_is_what_a_run_settles_on(mu):
+    """Between the folds of p = 3, or at the peak of p = 2: the greater stable amplitude is met, carried on in time."""
+    for p in (2.0, 3.0):
+        chosen = at_exponent(resonance.response(mu), p)
+        tops = []
+        for one in chosen:
+            omega, stable = one.branch.parameter, one.branch.stable
+            near = np.flatnonzero((np.abs(omega - 0.69) < 0.03) & stable)
+            if near.size:
+                size = amplitude(one.branch.osc, one.branch.state, 2)[near]
+                tops.append((size.max(), omega[near[size.argmax()]], *one.branch.state[:, near[size.argmax()]]))
+        size, omega, *state = max(tops)
+        osc = replace(paper.OSCILLATOR, p=p, mu=mu, omega=omega)
+        assert size > {0.03: 0.07, 0.12: 0.15}[mu]
+        late = poincare_section(osc, np.array(state) + 1e-5, 400, method="friction")[:, -1]
+        np.testing.assert_allclose(late, state, atol=1e-4)
+
+
+def test_folds_of_the_weak_superharmonic_peak_bound_the_coexistence_of_two_stable_orbits():
+    """At mu = 0.03, p = 3 the starts of Newton's method find one orbit outside the folds and three between."""
+    folds = sorted(
+        {round(float(f.osc.omega), 6) for one in at_exponent(resonance.response(0.03), 3.0) for f in one.found}
+    )
+    low, high = (omega for omega in folds if omega < 0.8)
+    starts = np.reshape(np.meshgrid(np.linspace(0.8, 1.2, 9), np.linspace(-0.25, 0.25, 9)), (2, -1))
+    counts = []
+    for omega in (low - 0.004, (low + high) / 2, high + 0.004):
+        osc = replace(paper.OSCILLATOR, p=3.0, mu=0.03, omega=omega)
+        found = periodic_orbits(osc, starts, 2).state
+        counts.append(int(np.sum(amplitude(replace(osc, mu=np.full(found.shape[1], 0.03)), found, 2) < 0.3)))
+    assert counts == [1, 3, 1]
+
+
+@pytest.mark.parametrize(("mu", "least"), [(0.03, 5e-4), (0.12, 3e-3)])
+def test_below_1_a_smaller_exponent_is_lower_at_every_frequency_and_above_1_not_quite(mu, least):
+    assert resonance.reversal(mu, (0.1, 0.3, 0.5))[0] < 1e-3
+    most, first, last = resonance.reversal(mu, (1.0, 2.0))
+    assert most > least
+    assert 0.5 <= first < 0.7 < last < 0.85
+
+
+def test_meetings_are_crossings_at_which_the_orbit_is_about_as_fast_as_equal_braking():
+    found = resonance.meetings()
+    assert [one.p for one in found] == [p for p in resonance.EXPONENTS if p != 1]
+    for one in found:
+        osc = replace(paper.OSCILLATOR, p=one.p, mu=one.mu + 1e-4, omega=one.omega)
+        starts = np.reshape(np.meshgrid(np.linspace(-0.4, 0.4, 7), np.linspace(0.9, 1.3, 5)), (2, -1))
+        pair = periodic_orbits(osc, starts, 1).state
+        fast = pair[:, pair[1] > 0.5]
+        assert fast.shape[1] == 2
+        speeds = [float(speed(osc, state, 1)) for state in fast.T]
+        assert min(speeds) - 1e-3 < one.speed < max(speeds) + 1e-3
+        assert one.equal == float(resonance.equal_braking(one.p))
+        assert abs(one.speed / one.equal - 1) < 0.1
 
 
 def test_in_a_well_every_stable_orbit_is_slower_than_equal_braking_asks(moderate):

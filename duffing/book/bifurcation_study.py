@@ -6,15 +6,19 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import paper
+from ..errors import ConvergenceError
 from ..flow import integrate
-from ..orbits.bifurcations import FLIP, FOLD, bifurcations, loci, orbit_branches, switched
+from ..orbits.bifurcations import FLIP, FOLD, OrbitBranch, bifurcations, loci, orbit_branches, switched
+from ..orbits.continuation import BOUND
 from ..orbits.diagram import bifurcation_diagram
 from ..orbits.followed import DRAWING, Followed, at_exponent, orbits_at
 from ..orbits.periodic import cycle, periodic_orbits
+from ..oscillator import Duffing
 from .remember import remembered
 
 EXPONENTS = (0.1, 0.5, 1.0, 2.0)
 IN_WELL, LARGE, SADDLE, THIRD = "in a well", "round both wells", "saddle orbit", "period 3"
+STARTS = np.array([[-1.2, -0.3, 1.0, -1.2, -0.3, 1.0, -1.2, -0.8], [0.2, 0.2, 0.2, 1.2, 1.2, 1.2, 0.6, 0.6]])
 HALVES = {IN_WELL: 2, LARGE: 1, SADDLE: 1, THIRD: 3}
 
 
@@ -133,12 +137,10 @@ def joined(down, up):
 
 
 @remembered
-def brute_force(p, first=0.11, last=0.29, forcings=61, transient=100):
-    """Late stroboscopic x against mu, both sweeps and six starts: dict name -> (mu, x), each (n,)."""
-    starts = np.reshape(np.meshgrid([-1.2, -0.3, 1.0], [0.2, 1.2]), (2, -1))
-    found = bifurcation_diagram(
-        replace(paper.OSCILLATOR, p=p), np.linspace(first, last, forcings), starts, transient, 12, **DRAWING
-    )
+def brute_force(p, first=0.05, last=0.29, forcings=61, transient=100):
+    """Late stroboscopic x against mu, both sweeps and the STARTS: dict name -> (mu, x), each (n,)."""
+    mu = np.linspace(first, last, forcings)
+    found = bifurcation_diagram(replace(paper.OSCILLATOR, p=p), mu, STARTS, transient, 12, **DRAWING)
     result = {}
     for name, points in (
         ("many starts", found.scattered),
@@ -152,18 +154,41 @@ def brute_force(p, first=0.11, last=0.29, forcings=61, transient=100):
 
 
 @remembered
-def agreement(p, mu=(0.12, 0.18, 0.24), periods=300):
-    """Largest distance (mu) of what two starts settle on to the nearest orbit of the followed branches: (len(mu),)."""
+def agreement(p, mu=(0.09, 0.12, 0.15, 0.18, 0.21, 0.24), periods=500):
+    """Distance of what the STARTS settle on to the nearest orbit of the followed branches: (len(mu), starts)."""
     followed = at_exponent(branches(), p)
-    family = replace(paper.OSCILLATOR, p=p, mu=np.repeat(mu, 2))
-    start = np.tile([[1.0, 1.0], [0.1, 1.4]], len(mu))
+    halves = {name: branch.halves for name, branch, _ in followed}
+    starts = STARTS.shape[1]
+    family = replace(paper.OSCILLATOR, p=p, mu=np.repeat(mu, starts))
     t = family.period * np.array([0.0, periods])
-    late = integrate(family, start, t, rtol=1e-11, atol=1e-13).states[:, -1].reshape(2, len(mu), 2)
+    late = integrate(family, np.tile(STARTS, len(mu)), t, rtol=1e-11, atol=1e-13).states[:, -1]
+    late = late.reshape(2, len(mu), starts)
     result = []
     for j, value in enumerate(mu):
         one = replace(paper.OSCILLATOR, p=p, mu=value)
         names = ((name, orbit) for name, orbits in orbits_at(followed, value).items() for orbit in orbits)
-        points = [cycle(one, orbit.state, HALVES[name]) for name, orbit in names if name in HALVES]
+        points = [cycle(one, orbit.state, halves[name]) for name, orbit in names]
         away = late[:, j, :, None] - np.concatenate(points, axis=1)[:, None]
-        result.append(np.max(np.min(np.hypot(*away), axis=1)))
+        result.append(np.min(np.hypot(*away), axis=1))
     return np.array(result)
+
+
+@remembered
+def in_exponent(mu=0.2, low=0.1, high=3.0):
+    """The small orbit in a well at the forcing mu followed in p: a Followed in the order of p.
+
+    Raises ConvergenceError where it does not reach both ends.
+    """
+    seeds = replace(paper.OSCILLATOR, p=np.ones(2), mu=mu)
+    ways = orbit_branches(
+        seeds, settled(seeds, (1.05, 0.0)), field="p", bounds=(low, high), direction=np.array([-1.0, 1.0]), largest=0.1
+    )
+    down, up = ways
+    if (down.parameter[-1], up.parameter[-1]) != (low, high):
+        raise ConvergenceError(f"mu = {mu:g}: the orbit does not reach p = {low:g} and {high:g}")
+    columns, state, parameter, multipliers = (
+        joined(*(part(one) for one in ways))
+        for part in (lambda b: b.osc.columns(), lambda b: b.state, lambda b: b.parameter, lambda b: b.multipliers)
+    )
+    both = OrbitBranch(Duffing(*columns), "p", up.halves, state, parameter, multipliers, BOUND)
+    return Followed(IN_WELL, both, tuple(bifurcations([both])[0]))

@@ -64,8 +64,10 @@ def branch_panels(cases, last):
 @styled
 def overlay(cases):
     """Stroboscopic x against mu, a panel for each p: dict p -> (brute, branches), brute a dict name -> (mu, x) (n,)."""
-    fig = PageFigure(figsize=(7.2, 3.6 * len(cases)))
-    panels = np.atleast_1d(fig.subplots(len(cases), 1, sharex=True))
+    columns = 1 if len(cases) <= 2 else 2
+    rows = -(-len(cases) // columns)
+    fig = PageFigure(figsize=(7.2 if columns == 1 else 9.6, 3.6 * rows))
+    panels = fig.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     looks = {"many starts": (GREY, ".", 3), "forward sweep": (BLACK, ">", 2.5), "backward sweep": (BLACK, "<", 2.5)}
     for axes, (p, (brute, branches)) in zip(panels, cases.items(), strict=True):
         for name, mu, value, stable in branches:
@@ -74,10 +76,13 @@ def overlay(cases):
             colour, marker, size = looks[name]
             look = {"marker": marker, "color": colour, "markersize": size, "markeredgewidth": 0, "zorder": 3}
             axes.plot(mu, x, linestyle="none", label=name, rasterized=True, **look)
-        axes.set(ylabel="$x$ at phase 0 (dimensionless)", ylim=(-1.7, 1.7))
+        axes.set(ylim=(-1.7, 1.7))
         axes.set_title(f"$p = {p:g}$", fontsize=10)
+    for axes in panels[::columns]:
+        axes.set_ylabel("$x$ at phase 0 (dimensionless)")
     low, high = (f([f(mu) for mu, _ in brute.values()]) for f in (np.min, np.max))
-    panels[-1].set(xlabel=MU, xlim=(low, high))
+    for axes in panels[-columns:]:
+        axes.set(xlabel=MU, xlim=(low, high))
     _legend(fig, panels[0])
     return fig
 
