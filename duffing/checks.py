@@ -9,6 +9,17 @@ import numpy as np
 MOST = 2**53  # counts beyond it are not told apart by a double
 
 
+def floats(name, value, allowed, kinds="iuf"):
+    """Real numbers in any shape, finite or not, as float array; kinds : of NumPy's types that are taken."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # ragged
+        raise ValueError(f"{name} = {value!r}: must be {allowed}") from None
+    if array.dtype.kind not in kinds:
+        raise ValueError(f"{name} = {value!r}: must be {allowed}")
+    return array.astype(float)
+
+
 def parameter(name, value, allowed="a finite number", lower=None, strict=False):
     """One parameter of the oscillator, checked: a float, a read-only float array, an mpmath or a sympy number.
 
@@ -24,7 +35,7 @@ def parameter(name, value, allowed="a finite number", lower=None, strict=False):
     if _is_mpmath(value):
         finite, number = math.isfinite(value), value
     else:
-        number = _float_array(name, value, allowed)
+        number = floats(name, value, allowed)
         finite = np.all(np.isfinite(number))
     if not finite or (lower is not None and not np.all(number > lower if strict else number >= lower)):
         raise ValueError(f"{name} = {value}: must be {allowed}")
@@ -39,6 +50,13 @@ def model(osc):
     """An oscillator: anything else is refused by name before somebody asks it for its shape."""
     if not hasattr(osc, "columns"):
         raise ValueError(f"osc = {osc!r}: must be a Duffing oscillator")
+    return osc
+
+
+def single(osc):
+    """An oscillator that is no family."""
+    if model(osc).shape:
+        raise ValueError(f"osc has the shape {osc.shape}: must be a single oscillator")
     return osc
 
 
@@ -57,6 +75,14 @@ def count(name, value, least=1):
     return int(value)
 
 
+def counts(name, value, size, least=1):
+    """Whole numbers >= least, one for all members or one each: an integer array (size,)."""
+    array = floats(name, value, f"whole numbers >= {least}").ravel()
+    if array.size not in (1, size):
+        raise ValueError(f"{name} has {array.size} numbers: must be one, or {size}, one a member")
+    return np.repeat([count(name, int(k) if k.is_integer() else k, least) for k in array.tolist()], size // array.size)
+
+
 def positive(name, value):
     """A finite float > 0."""
     return number(name, value, allowed="a finite number > 0", lower=0.0, strict=True)
@@ -69,9 +95,23 @@ def choice(name, value, allowed):
     return value
 
 
+def instances(name, value, kind):
+    """Things of a kind, as a tuple."""
+    if not isinstance(value, tuple | list) or not all(isinstance(one, kind) for one in value):
+        raise ValueError(f"{name} = {value!r}: must be a tuple of {kind.__name__}")
+    return tuple(value)
+
+
+def function(name, value):
+    """What can be called."""
+    if not callable(value):
+        raise ValueError(f"{name} = {value!r}: must be a function")
+    return value
+
+
 def state(value, shape, name="state"):
     """States (x, v) of a family, as float array (2, N): from (2,) for all members or (2, *shape)."""
-    array = _float_array(name, value, "two finite numbers (x, v)")
+    array = floats(name, value, "two finite numbers (x, v)")
     size = math.prod(shape)
     if array.shape == (2,):
         array = np.repeat(array[:, None], size, axis=1)
@@ -84,9 +124,19 @@ def state(value, shape, name="state"):
     return np.ascontiguousarray(array)
 
 
+def starts(value, name="starts"):
+    """States (x, v) of M motions, none or more: float array (2, M)."""
+    array = floats(name, value, "finite states (2, M)")
+    if array.ndim != 2 or len(array) != 2:
+        raise ValueError(f"{name} has shape {array.shape}: must be (2, M), x and v of each start")
+    if not np.all(np.isfinite(array)):
+        raise ValueError(f"{name} = {value}: must be finite")
+    return array
+
+
 def times(value, name="t"):
     """Increasing finite times, as float array (n,), n >= 1."""
-    array = _float_array(name, value, "increasing finite times")
+    array = floats(name, value, "increasing finite times")
     if array.ndim != 1 or array.size == 0:
         raise ValueError(f"{name} has shape {array.shape}: must be a sequence of at least one time")
     if not np.all(np.isfinite(array)) or not np.all(np.diff(array) > 0):
@@ -101,16 +151,6 @@ def double_well(osc):
         signed = sign * value
         if not (signed.is_positive if _is_sympy(signed) else np.all(signed > 0)):
             raise ValueError(f"{name} = {value}: must be {allowed} for a double well (homoclinic loops need one)")
-
-
-def _float_array(name, value, allowed):
-    try:
-        array = np.asarray(value)
-    except ValueError:  # ragged
-        raise ValueError(f"{name} = {value!r}: must be {allowed}") from None
-    if array.dtype.kind not in "iuf":
-        raise ValueError(f"{name} = {value!r}: must be {allowed}")
-    return array.astype(float)
 
 
 def _is_sympy(value):

@@ -64,8 +64,7 @@ def launch(frame, kind, t, member=0, side=1):
 
 
 def _curve(osc, kind, side, length, phase, spacing, turn):
-    if osc.shape:
-        raise ValueError(f"osc is a family of shape {osc.shape}: a curve belongs to a single oscillator")
+    checks.single(osc)
     checks.choice("side", side, (1, -1))
     for name, value in (("length", length), ("spacing", spacing), ("turn", turn)):
         checks.positive(name, value)

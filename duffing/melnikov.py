@@ -94,10 +94,9 @@ def melnikov_quadrature(osc, t0, digits=50):
     For one oscillator (no family). Tanh-sinh nodes crowd at t = 0, where |v*|^(p+1) has its kink, so the kink costs
     no digits; each half line is cut where the orbit has decayed below the working precision.
     """
-    checks.double_well(osc)
+    checks.double_well(checks.single(osc))
+    checks.number("t0", t0)
     checks.count("digits", digits)
-    if osc.shape:
-        raise ValueError(f"osc is a family of shape {osc.shape}: the quadrature takes a single oscillator")
     with mpmath.workdps(digits + 15):
         exact = replace(osc, alpha=mpmath.mpf(osc.alpha))
         end = (digits + 10) * mpmath.log(10) / mpmath.sqrt(-exact.delta)

@@ -130,7 +130,7 @@ def test_branch_that_ends_in_an_attractor_has_no_more_length_than_that():
 
 
 def test_bad_input_is_refused_by_name():
-    with pytest.raises(ValueError, match=r"family of shape \(2,\)"):
+    with pytest.raises(ValueError, match=r"^osc has the shape \(2,\)"):
         unstable_manifold(Duffing(mu=[0.1, 0.2]))
     with pytest.raises(ValueError, match="side = 0"):
         stable_manifold(LINEAR, side=0)

@@ -236,7 +236,7 @@ def test_every_formula_refuses_a_potential_without_two_wells(call):
 def test_bad_arguments_of_the_formulas_are_named():
     with pytest.raises(ValueError, match=r"^side = 0"):
         homoclinic_orbit(Duffing(), 0.0, side=0)
-    with pytest.raises(ValueError, match=r"family of shape \(2,\)"):
+    with pytest.raises(ValueError, match=r"^osc has the shape \(2,\)"):
         melnikov_quadrature(Duffing(mu=[0.1, 0.2]), 0.0)
     with pytest.raises(ValueError, match=r"^digits = 0"):
         melnikov_quadrature(Duffing(), 0.0, digits=0)

@@ -105,9 +105,9 @@ def test_a_sample_without_captures_has_no_mean():
 @pytest.mark.parametrize(
     ("time", "settled", "message"),
     [
-        ([1, 2], np.array([True]), "^time and settled have shapes"),
-        ([1, 2], np.array([1, 0]), "settled boolean"),
-        ([], np.array([], dtype=bool), "must be alike"),
+        ([1, 2], np.array([True]), "^settled has 1 marks, time has 2 numbers"),
+        ([1, 2], np.array([1, 0]), "^settled = "),
+        ([], np.array([], dtype=bool), r"^time = \[\]: must be"),
         ([1.5, 2.0], np.array([True, True]), "^time = "),
         ([-1, 2], np.array([True, True]), "^time = "),
     ],

@@ -85,7 +85,7 @@ def find_attractors(osc, starts=None, periods=400, **options):
     """
     if starts is None:
         starts = np.reshape(np.meshgrid(np.linspace(-1.6, 1.6, 16), np.linspace(-1.2, 1.2, 12)), (2, -1))
-    settled, left = _settle(osc, starts, (), periods, 0.0, {}, options)
+    settled, left = _settle(osc, checks.starts(starts), (), periods, 0.0, {}, options)
     return ordered(settled.attractors + (_chaotic(osc, left, settled.attractors, options) if left.size else ()))
 
 
@@ -102,7 +102,8 @@ def settle(
     options, errors : method and options as for `duffing.flow.integrate`
     """
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
-    return _settle(osc, states, tuple(attractors), periods, phase, run, options)[0]
+    known = checks.instances("attractors", attractors, Attractor)
+    return _settle(osc, checks.starts(states, "states"), known, periods, phase, run, options)[0]
 
 
 def ordered(attractors):
@@ -116,11 +117,9 @@ def ordered(attractors):
 
 def _settle(osc, states, attractors, periods, phase, run, options):
     """Settled, and the states (2, n) that nothing has caught, as they are at the end. run : how, for `over_blocks`."""
-    if checks.model(osc).shape:
-        raise ValueError(f"osc has the shape {osc.shape}: must be a single oscillator")
-    states = np.asarray(states, dtype=float)
+    checks.single(osc)
     checks.count("periods", periods)
-    now = checks.state(states, states.shape[1:], "states")
+    now = states
     labels, caught = np.full(now.shape[1], UNRESOLVED), np.full(now.shape[1], np.inf)
     live, streaks = np.arange(now.shape[1]), np.zeros((len(attractors), now.shape[1]))
     first, search = 0, 2 * LONGEST

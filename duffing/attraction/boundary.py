@@ -41,6 +41,7 @@ def crossings(follow, reach=0.2, least=1e-13, most=100_000):
 
     Raises ValueError for invalid input.
     """
+    checks.function("follow", follow)
     for name, value in (("reach", reach), ("least", least)):
         checks.positive(name, value)
     checks.count("most", most, least=_CELLS + 1)
@@ -67,7 +68,8 @@ def line_of_starts(osc, start, end, periods=12, **options):
     osc : a single oscillator; options : method and options as for `duffing.flow.integrate`. Down to widths near an
     adaptive integrator's tolerance its own steps are seen; method="rk4" is a smooth map down to rounding.
     """
-    start, end = (np.asarray(point, dtype=float)[:, None] for point in (start, end))
+    start, end = (checks.state(point, (), name) for name, point in (("start", start), ("end", end)))
+    checks.single(osc)
     t = osc.period / LOOKS * np.arange(checks.count("periods", periods, least=LAST + 1) * LOOKS + 1)
 
     def follow(s):

@@ -25,7 +25,7 @@ def homoclinic_strips(osc, periods=14, most=30_000, **options):
     most : as for `crossings`; strips thinner than 1e-9 of the domain are not seen
     options : method and options as for `duffing.flow.integrate`; errors as for `saddle_orbit`
     """
-    saddle = saddle_orbit(osc)
+    saddle = saddle_orbit(checks.single(osc))
     ends = (saddle.state + _LAUNCH * stretch * saddle.unstable for stretch in (1.0, saddle.multipliers[0]))
     return crossings(line_of_starts(osc, *ends, periods, **options), least=_LEAST, most=most).left.size
 
@@ -36,7 +36,9 @@ def first_contact(osc, low, high, halvings=8, **options):
     osc.mu is not used; low, high : forcings that bracket it; halvings : of the bracket; options as `homoclinic_strips`
     Raises ConvergenceError where the manifolds meet at low or do not at high.
     """
+    checks.single(osc)
     checks.count("halvings", halvings)
+    low, high = checks.number("low", low), checks.number("high", high)
     for mu, met in ((low, False), (high, True)):
         if (homoclinic_strips(replace(osc, mu=mu), **options) > 0) != met:
             raise ConvergenceError(f"mu = {mu}: the manifolds {'do not meet' if met else 'meet'} there: no bracket")

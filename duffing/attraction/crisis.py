@@ -57,7 +57,8 @@ def large_saddle(osc):
 
 def saddles(osc, outer):
     """Saddles of the family, the large ones near the guesses `outer`, (2,) or (2, n). Errors as `periodic_orbit`."""
-    inner, outer = periodic_orbit(osc, _CENTRE, 1), periodic_orbit(osc, outer, 1)
+    outer = checks.state(outer, checks.model(osc).shape, "outer")
+    inner, outer = periodic_orbit(osc, _CENTRE, 1), periodic_orbit(osc, outer.reshape(2, *osc.shape), 1)
     states = [orbit.state.reshape(2, -1) for orbit in (inner, outer)]
     maps = [np.moveaxis(half_return(osc, state, 1).derivative, -1, 0) for state in states]
     unstable = _eigenvector(maps[0])
@@ -116,8 +117,10 @@ def crisis(osc, lower, upper, outer, steps=9, **options):
 
     Raises ConvergenceError naming the first member whose bracket holds no change of sign.
     """
-    shape = osc.columns().shape[1:]
-    lower, upper = (np.broadcast_to(np.asarray(value, dtype=float), shape).copy() for value in (lower, upper))
+    shape = checks.model(osc).columns().shape[1:]
+    lower, upper = (
+        np.broadcast_to(checks.parameter(name, mu), shape).copy() for name, mu in (("lower", lower), ("upper", upper))
+    )
     ends = []
     for mu in (lower, upper):
         found = saddles(_at(osc, mu), outer)

@@ -29,7 +29,7 @@ def fate(osc, states, periods=60, last=LAST, executor=None, progress=None, check
     options, errors : method and options as for `duffing.flow.integrate`
     """
     checks.count("periods", periods, least=checks.count("last", last) + 1)
-    states = np.asarray(states, dtype=float)
+    states = checks.floats("states", states, "two finite numbers (x, v) each")
     if not checks.model(osc).shape and states.ndim > 1:
         osc = replace(osc, mu=np.full(states.shape[1:], osc.mu))
     state, task = checks.state(states, osc.shape, "states"), {"periods": periods, "last": last, **options}

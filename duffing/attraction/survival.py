@@ -60,7 +60,7 @@ def rate(time, captured, since=0):
 
     The rates of several attractors add up to the whole. Without a capture the rate is 0, its error that of one capture.
     """
-    time, captured = _sample(time, captured)
+    time, captured = _sample(time, captured, "captured")
     late = time > checks.count("since", since, least=0)
     events, exposure = np.sum(captured & late), np.sum(time[late] - since)
     if exposure == 0:
@@ -78,10 +78,14 @@ def law_test(time, settled, since=0, until=None, resamples=400, seed=SEED):
     Returns (distance, probability).
     """
     time, settled = _sample(time, settled)
-    until = checks.count("until", int(time.max()) if until is None else until) - since
+    until = checks.count("until", int(time.max()) if until is None else until)
+    since = checks.count("since", since, least=0)
+    if until <= since:
+        raise ValueError(f"until = {until}: must be more than since = {since}")
+    until -= since
     fit = exponential(time, settled, since)
     late = time > since
-    draw = np.random.default_rng(seed)
+    draw = np.random.default_rng(checks.count("seed", seed, least=0))
     distance = _distance(time[late] - since, settled[late], fit.mean, until)
     drawn = np.ceil(draw.exponential(fit.mean, (checks.count("resamples", resamples), late.sum()))).astype(int)
     larger = 0
@@ -99,10 +103,12 @@ def _distance(time, settled, mean, until):
     return np.max(np.abs(found - law))
 
 
-def _sample(time, settled):
-    time, settled = np.ravel(time), np.ravel(settled)
-    if time.shape != settled.shape or time.size == 0 or settled.dtype != bool:
-        raise ValueError(f"time and settled have shapes {time.shape}, {settled.shape}: must be alike, settled boolean")
-    if time.dtype.kind not in "iu" or time.min() < 0:
-        raise ValueError(f"time = {time}: must be whole numbers of periods >= 0")
-    return time.astype(int), settled
+def _sample(time, marked, name="settled"):
+    allowed = "whole numbers of periods >= 0, at least one"
+    time = checks.floats("time", time, allowed).ravel()
+    if time.size == 0 or not np.all((time >= 0) & (time <= checks.MOST) & (time == np.floor(time))):
+        raise ValueError(f"time = {time}: must be {allowed}")
+    marked = checks.floats(name, marked, "True or False for each time", kinds="b").ravel() > 0
+    if marked.size != time.size:
+        raise ValueError(f"{name} has {marked.size} marks, time has {time.size} numbers: must be as many")
+    return time.astype(int), marked

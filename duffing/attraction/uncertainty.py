@@ -28,8 +28,9 @@ def uncertain_starts(label, box, eps, starts=2**14, seed=20260612):
     eps : (n,) distances; seed : of the random starts
     """
     eps = np.atleast_1d(checks.parameter("eps", eps, "positive distances", lower=0.0, strict=True))
-    starts, low, high = checks.count("starts", starts), *np.transpose(box).astype(float)
-    random, counts = np.random.default_rng(seed), []
+    checks.function("label", label)
+    starts, low, high = checks.count("starts", starts), *_corners(box)
+    random, counts = np.random.default_rng(checks.count("seed", seed, least=0)), []
     for distance in eps:
         states = random.uniform(low[:, None], high[:, None], (2, starts))
         aside = np.array([[distance], [0.0]])
@@ -46,7 +47,11 @@ def dimension(eps, uncertain, starts):
 
     Raises ConvergenceError where fewer than three distances have uncertain starts.
     """
-    eps, uncertain = np.asarray(eps, dtype=float), np.asarray(uncertain)
+    eps = np.atleast_1d(checks.parameter("eps", eps, "positive distances", lower=0.0, strict=True))
+    checks.count("starts", starts)
+    uncertain = checks.floats("uncertain", uncertain, "counts of starts")
+    if uncertain.shape != eps.shape or not np.all((uncertain >= 0) & (uncertain <= starts)):
+        raise ValueError(f"uncertain = {uncertain}: must be counts from 0 to starts = {starts}, one for each eps")
     seen = uncertain > 0
     if seen.sum() < 3:
         raise ConvergenceError(f"uncertain = {uncertain}: at least three distances must have uncertain starts")
@@ -58,3 +63,10 @@ def dimension(eps, uncertain, starts):
     left = y - np.average(y, weights=weight) - slope * x
     excess = np.sum(weight * left**2) / (seen.sum() - 2)
     return Dimension(float(2 - slope), float(np.sqrt(max(1.0, excess) / np.sum(weight * x * x))))
+
+
+def _corners(box):
+    sides = checks.floats("box", box, "((x least, x most), (v least, v most))")
+    if sides.shape != (2, 2) or not np.all(np.isfinite(sides)) or not np.all(sides[:, 0] < sides[:, 1]):
+        raise ValueError(f"box = {box!r}: must be ((x least, x most), (v least, v most))")
+    return sides.T

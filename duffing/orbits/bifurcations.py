@@ -65,8 +65,8 @@ def orbit_branches(osc, state, halves=2, *, field="mu", bounds=(0.0, 0.5), optio
     bounds : of the parameter; options : of the integrator; steps : as for `continuation.follow_branches`
     """
     checks.choice("field", field, FIELDS)
-    columns = osc.columns()
-    halves = np.broadcast_to(halves, columns.shape[1])
+    columns = checks.model(osc).columns()
+    halves = checks.counts("halves", halves, columns.shape[1])
     function = _closing(columns, field, halves, options or {})
     parameter = columns[FIELDS.index(field)]
     found = follow_branches(function, checks.state(state, osc.shape), parameter, bounds=bounds, **steps)

@@ -6,6 +6,7 @@ functions g here are cheap only for whole families; each keeps its own step. Sou
 (2003).
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -111,7 +112,12 @@ def _start(u, parameter, bounds, direction):
     u = np.asarray(u, dtype=float)
     if u.ndim != 2 or u.shape[1] != parameter.size or not np.all(np.isfinite(u)):
         raise ValueError(f"u has shape {u.shape}: must be (m, {parameter.size}), finite numbers, one column a branch")
-    low, high = (np.broadcast_to(np.asarray(value, dtype=float), parameter.shape) for value in bounds)
+    if not isinstance(bounds, Sequence | np.ndarray) or isinstance(bounds, str) or len(bounds) != 2:
+        raise ValueError(f"bounds = {bounds!r}: must be two, (low, high)")
+    low, high = (checks.floats("bounds", value, "numbers, or one a branch") for value in bounds)
+    if {low.shape, high.shape} - {(), parameter.shape}:
+        raise ValueError(f"bounds = {bounds!r}: must be numbers, or {parameter.size} each, one a branch")
+    low, high = np.broadcast_to(low, parameter.shape), np.broadcast_to(high, parameter.shape)
     if not (np.all(low <= parameter) and np.all(parameter <= high) and np.all(low < high)):
         raise ValueError(f"bounds = {bounds}: must be two different numbers with the parameter {parameter} between")
     direction = np.asarray(direction, dtype=float)

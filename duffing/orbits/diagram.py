@@ -42,12 +42,11 @@ def bifurcation_diagram(
     options, errors : method and options as for `duffing.flow.integrate`
     """
     mu = checks.times(mu, "mu")
-    starts = np.asarray(starts)
-    if starts.ndim != 2 or starts.shape[0] != 2 or starts.shape[1] == 0:
-        raise ValueError(f"starts has shape {starts.shape}: must be (2, m), x and v of at least one start")
+    starts, family = checks.starts(starts), checks.model(osc).shape
+    if starts.shape[1] == 0:
+        raise ValueError(f"starts has shape {starts.shape}: must be (2, m), m >= 1")
     run = {"periods": checks.count("kept", kept), "transient": transient, **options}
     forward, backward = _sweeps(osc, mu, starts[:, 0], run)
-    family = osc.shape
     grid = _expanded(osc, 2, mu=np.broadcast_to(mu[:, None], (*family, mu.size, starts.shape[1])))
     state = np.broadcast_to(starts.reshape(2, *[1] * (len(family) + 1), -1), (2, *grid.shape))
     parts = {"executor": executor, "progress": progress, "checkpoint": checkpoint}

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import checks
 from ..oscillator import Duffing
 from .bifurcations import Bifurcation, OrbitBranch
 from .periodic import cycle, path, periodic_orbit
@@ -21,14 +22,15 @@ class Followed(NamedTuple):
 
 
 def amplitude(osc, state, halves, samples=100):
-    """Half the range of x over the orbits through the states (2, *family): (*family). Sampled: right to about 1e-3."""
-    x = path(osc, state, halves, samples * halves // 2, **DRAWING)[0]
+    """Half the range of x over the orbits through the states (2, *family): (*family). Right to about 1e-3, by so many
+    samples a period."""
+    x = _path(osc, state, halves, samples)[0]
     return np.max(np.abs(x), axis=0) if halves % 2 else np.ptp(x, axis=0) / 2
 
 
 def speed(osc, state, halves, samples=100):
     """Greatest |v| over the orbits through the states (2, *family): (*family). Sampled, like `amplitude`."""
-    return np.max(np.abs(path(osc, state, halves, samples * halves // 2, **DRAWING)[1]), axis=0)
+    return np.max(np.abs(_path(osc, state, halves, samples)[1]), axis=0)
 
 
 def stroboscopic(osc, state, halves):
@@ -102,3 +104,8 @@ def orbits_at(followed, mu):
             if not any(np.max(np.abs(orbit.state - other.state)) < 1e-6 for other in known):
                 known.append(orbit)
     return result
+
+
+def _path(osc, state, halves, samples):
+    number = checks.count("samples", samples, least=2) * checks.count("halves", halves) // 2
+    return path(osc, state, halves, number, **DRAWING)

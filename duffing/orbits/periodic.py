@@ -49,8 +49,8 @@ def half_return(osc, state, halves=2, **options):
 
     halves : a whole number >= 1, or (N,) of them; options : as for `duffing.flow.integrate`
     """
-    halves = np.array([checks.count("halves", k) for k in np.ravel(halves).tolist()])
-    state = checks.state(state, osc.shape)
+    state = checks.state(state, checks.model(osc).shape)
+    halves = checks.counts("halves", halves, state.shape[1])
     period = np.broadcast_to(osc.period, osc.shape).ravel()
     t = np.array([np.zeros_like(period), halves * period / 2])
     orbit = integrate(osc, state, t, tangents=2, **(TOLERANCE | options))
@@ -76,7 +76,7 @@ def periodic_orbit(osc, state, halves=2, **options):
 
     Raises ValueError for invalid input, ConvergenceError naming the first member that Newton's method does not solve.
     """
-    columns, guess = osc.columns(), checks.state(state, osc.shape)
+    guess, columns = checks.state(state, checks.model(osc).shape), osc.columns()
     state, found = _newton(columns, guess, halves, options)
     if not found.all():
         bad = np.argmin(found)
@@ -94,11 +94,10 @@ def periodic_orbits(osc, starts, halves=2, apart=1e-5, **options):
     closes already after a part of `halves` does not count. Sorted by x. There may be none: n = 0. No search from a
     finite number of starts can promise to be complete.
     """
-    if osc.shape:
-        raise ValueError(f"osc has the shape {osc.shape}: must be a single oscillator")
-    starts = np.asarray(starts, dtype=float)
-    columns = np.repeat(osc.columns(), starts.shape[1], axis=1)
-    state, found = _newton(columns, checks.state(starts, starts.shape[1:], "starts"), halves, options)
+    starts, halves = checks.starts(starts), checks.count("halves", halves)
+    checks.positive("apart", apart)
+    columns = np.repeat(checks.single(osc).columns(), starts.shape[1], axis=1)
+    state, found = _newton(columns, starts, halves, options)
     state = state[:, found]
     keep = []
     if not found.any():
@@ -124,16 +123,17 @@ def cycle(osc, state, halves=2, **options):
     For an odd number they are the orbit's stroboscopic points; for an even one those with even j are, and those with
     odd j are the points of its mirror image.
     """
-    states = path(osc, state, halves, halves, **(TOLERANCE | options))[:, :-1]
+    states = path(osc, state, halves, checks.count("halves", halves), **(TOLERANCE | options))[:, :-1]
     signs = np.array([1, -1] * halves)[:halves]
     return states * signs.reshape(-1, *[1] * len(osc.shape))
 
 
 def path(osc, state, halves=2, samples=200, **options):
     """The orbits through the states (2, *family) at phase 0, over `halves` half periods: (2, samples + 1, *family)."""
+    state, halves = checks.state(state, checks.model(osc).shape), checks.count("halves", halves)
     period = np.broadcast_to(osc.period, osc.shape).ravel()
     t = np.linspace(np.zeros_like(period), halves * period / 2, checks.count("samples", samples) + 1)
-    states = integrate(osc, checks.state(state, osc.shape), t, **options).states
+    states = integrate(osc, state, t, **options).states
     return states.reshape(2, samples + 1, *osc.shape)
 
 

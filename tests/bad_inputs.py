@@ -1,0 +1,31 @@
+"""What arguments of public functions cannot be, by the argument's name: each must be refused by that name."""
+
+import math
+
+import numpy as np
+
+from duffing import Duffing
+
+NOTHING = [None, "a word", math.nan, 1j, {}, object(), [[1.0, 2.0], [3.0]], np.array(["a"]), [math.nan, 1.0]]
+NUMBERS = [math.inf, -math.inf, *NOTHING]
+COUNTS = [-1, 0.5, True, 10**400, *NUMBERS]
+POSITIVE = [0, -1.0, [], np.array([1.0, 2.0]), *NUMBERS]
+BAD = {
+    "osc": [0.5, math.inf, [1.0], Duffing(delta=1.0).shape, *NOTHING],
+    "state": [1.0, [], (1.0, 2.0, 3.0), np.zeros((3, 2)), (math.inf, 0.0), *NOTHING],
+    "t": NUMBERS,
+    "periods": [0, *COUNTS],
+    "k": [0, 3, *COUNTS],
+    "max_steps": [0, *COUNTS],
+    "steps_per_period": [0, *COUNTS],
+    "threads": [0, *(bad for bad in COUNTS if bad is not None)],  # None: as many as there are processors
+    "transient": COUNTS,
+    "phase": NUMBERS,
+    "t0": NUMBERS,
+    "side": [0, 2, np.array([1, -1]), *NUMBERS],
+    "method": [0, "rk5", np.array(["rk4", "auto"]), *NOTHING],
+    **{name: POSITIVE for name in ("d0", "rtol", "atol")},
+    "switch": [0.7, *POSITIVE],
+    **{name: [-1.0, *NUMBERS] for name in ("alpha", "p", "omega")},
+    **{name: NUMBERS for name in ("mu", "delta", "gamma")},
+}

@@ -1,0 +1,181 @@
+"""The functions of the rooms `orbits` and `attraction`, and of the manifolds, refuse what an argument cannot be by its
+name, as those of `duffing` itself do (test_inputs.py). Warnings are errors here too.
+"""
+
+import inspect
+import pkgutil
+from importlib import import_module
+
+import numpy as np
+import pytest
+from bad_inputs import BAD, COUNTS, NOTHING, NUMBERS, POSITIVE
+
+from duffing import Duffing, attraction, orbits
+from duffing.attraction.crisis import large_saddle
+
+OSC = Duffing(alpha=0.1, p=1.0, mu=0.02)
+STRONG = Duffing(alpha=0.1, p=1.0, mu=0.3)
+OUTER = tuple(large_saddle(STRONG))
+SAMPLE = {"time": [3, 5, 8, 13], "settled": [True, True, True, False], "since": 0}
+CURVE = {"osc": OSC, "side": 1, "length": 1.0, "phase": 0.0, "spacing": 0.1, "turn": 0.5}
+ORBIT = {"osc": OSC, "state": (1.0, 0.0), "halves": 2}
+STRIPS = {"osc": OSC, "periods": 8, "most": 1000}
+START = [[0.9], [0.0]]
+
+
+def sides(states):
+    return states[0] > 0
+
+
+def line(s):
+    return np.array([s, s])[:, None], s > 0.5
+
+
+# A valid call of each; in it one argument after the other is replaced by something that it is not.
+CALLS = {
+    "manifolds.unstable_manifold": CURVE,
+    "manifolds.stable_manifold": CURVE,
+    "melnikov.damping_integral": {"osc": OSC},
+    "melnikov.forcing_integral": {"osc": OSC},
+    "melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
+    "sticking.saddle_friction_time": {"osc": OSC},
+    "sticking.sticking_amplitude": {"osc": OSC},
+    "correction.tangency_correction": {"osc": Duffing(p=0.5)},
+    "orbits.periodic.half_return": ORBIT,
+    "orbits.periodic.periodic_orbit": ORBIT,
+    "orbits.periodic.periodic_orbits": {"osc": OSC, "starts": START, "halves": 2, "apart": 1e-5},
+    "orbits.periodic.cycle": ORBIT,
+    "orbits.periodic.path": {**ORBIT, "samples": 4},
+    "orbits.followed.amplitude": {**ORBIT, "samples": 4},
+    "orbits.followed.speed": {**ORBIT, "samples": 4},
+    "orbits.followed.stroboscopic": ORBIT,
+    "orbits.diagram.bifurcation_diagram": {"osc": OSC, "mu": [0.1, 0.2], "starts": START, "transient": 0, "kept": 1},
+    "orbits.bifurcations.orbit_branches": {
+        "osc": Duffing(alpha=0.1, mu=[0.02]), "state": [[1.0], [0.0]], "halves": 2, "field": "mu", "bounds": (0.0, 0.03)
+    },
+    "attraction.attractors.find_attractors": {"osc": OSC, "starts": START, "periods": 100},
+    "attraction.attractors.settle": {"osc": OSC, "states": START, "attractors": (), "periods": 10, "phase": 0.0},
+    "attraction.basins.basins": {
+        "osc": OSC, "x": [0.9], "v": [0.0], "attractors": (), "periods": 10, "phase": 0.0
+    },
+    "attraction.boundary.crossings": {"follow": line, "reach": 0.2, "least": 1e-3, "most": 1000},
+    "attraction.boundary.line_of_starts": {"osc": OSC, "start": (0.0, 0.0), "end": (1.0, 0.0), "periods": 6},
+    "attraction.contact.homoclinic_strips": STRIPS,
+    "attraction.contact.first_contact": {**STRIPS, "low": 0.07, "high": 0.09, "halvings": 1, "periods": 14},
+    "attraction.crisis.large_saddle": {"osc": STRONG},
+    "attraction.crisis.saddles": {"osc": STRONG, "outer": OUTER},
+    "attraction.crisis.crisis": {
+        "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "upper": 0.26, "outer": OUTER, "steps": 1, "points": 200
+    },
+    "attraction.fates.fate": {"osc": OSC, "states": START, "periods": 6, "last": 4},
+    "attraction.lifetimes.lifetimes": {
+        "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
+        "tangents": 0,
+    },
+    "attraction.survival.survival": {"time": SAMPLE["time"], "settled": SAMPLE["settled"]},
+    "attraction.survival.exponential": SAMPLE,
+    "attraction.survival.rate": {"time": SAMPLE["time"], "captured": SAMPLE["settled"], "since": 0},
+    "attraction.survival.law_test": {**SAMPLE, "until": 13, "resamples": 2, "seed": 1},
+    "attraction.uncertainty.uncertain_starts": {
+        "label": sides, "box": ((-1, 1), (-1, 1)), "eps": [0.1], "starts": 10, "seed": 1
+    },
+    "attraction.uncertainty.dimension": {"eps": [0.1, 0.01, 0.001], "uncertain": [30, 10, 3], "starts": 100},
+}  # fmt: skip
+# Those that take what another one gave, or what a caller inside the package has checked.
+WITHIN = {
+    "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
+    " switched",
+    "attraction": "boundary_dimension both_wells capture changed contracted_form copies edge_distance look ordered"
+    " neighbourhood points_of read returns trap",
+}
+INCREASING = [[2.0, 1.0], [], *NOTHING]
+STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
+POINT = BAD["state"]
+SOME = [bad for bad in STATES if bad is not None]  # None: a grid of them
+WRONG = BAD | {
+    **{key: POSITIVE for key in ("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least")},
+    **{
+        key: [0, *COUNTS]
+        for key in (
+            "halves",
+            "samples",
+            "kept",
+            "last",
+            "block",
+            "most",
+            "halvings",
+            "resamples",
+            "digits",
+            "steps",
+            "points",
+        )
+    },
+    "until": [0, *(bad for bad in COUNTS if bad is not None)],  # None: the longest time
+    **{key: COUNTS for key in ("settling", "since", "seed")},
+    **{key: STATES for key in ("states", "starts")},
+    **{key: INCREASING for key in ("mu", "x", "v")},
+    **{key: POINT for key in ("start", "end", "outer")},
+    **{key: NUMBERS for key in ("low", "high", "lower", "upper")},
+    "field": [0, "mass", *NOTHING],
+    "bounds": [0.5, (0.1,), (0.2, 0.1), (np.nan, 1.0), ([0.0, 0.1], 1.0), *NOTHING],
+    "attractors": [3, "a word", (1,), {}, object()],  # None: they are looked for
+    "tangents": [2, -1, *NOTHING],
+    **{key: [1, None, "a word"] for key in ("label", "follow")},
+    "box": [1.0, (1, 2), ((1, -1), (-1, 1)), ((np.nan, 1), (0, 1)), *NOTHING],
+    "eps": [0.0, -1.0, *NOTHING],
+    "uncertain": [1, [1, 2], [-1, 2, 3], [1000, 10, 3], *NOTHING],
+    "time": [1.0, [], [1, 2], [-1, 1, 1, 1], [0.5, 1, 1, 1], *NOTHING],
+    **{key: [1.0, [], [True], [1, 1, 1, 1], *NOTHING] for key in ("settled", "captured")},
+}
+# An argument of one name is not the same thing everywhere.
+OTHERWISE = {
+    "attraction.attractors.find_attractors": {"starts": SOME},
+    "attraction.uncertainty.uncertain_starts": {"starts": [0, *COUNTS]},
+    "attraction.uncertainty.dimension": {"starts": [0, *COUNTS]},
+}
+
+
+def call(name, **arguments):
+    module, _, function = name.rpartition(".")
+    return getattr(import_module(f"duffing.{module}"), function)(**{**CALLS[name], **arguments})
+
+
+@pytest.mark.parametrize("room", [orbits, attraction])
+def test_every_function_of_the_room_is_called_here_or_named_as_one_that_is_not(room):
+    name = room.__name__.removeprefix("duffing.")
+    found = set()
+    for one in pkgutil.iter_modules(room.__path__):
+        module = import_module(f"{room.__name__}.{one.name}")
+        own = (
+            key for key, value in inspect.getmembers(module, inspect.isfunction) if value.__module__ == module.__name__
+        )
+        found |= {key for key in own if not key.startswith("_")}
+    called = {key.rpartition(".")[2] for key in CALLS if key.startswith(f"{name}.")}
+    assert found == called | set(WITHIN[name].split())
+    assert not called & set(WITHIN[name].split())
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_the_call_that_is_spoilt_below_is_a_good_one(name):
+    call(name)
+
+
+@pytest.mark.parametrize(("name", "argument"), [(name, argument) for name in CALLS for argument in CALLS[name]])
+def test_what_an_argument_cannot_be_is_refused_by_its_name(name, argument):
+    for bad in OTHERWISE.get(name, {}).get(argument, WRONG[argument]):
+        with pytest.raises(ValueError, match=rf"\b{argument}\b"):
+            call(name, **{argument: bad})
+
+
+SINGLE = (
+    "manifolds.unstable_manifold", "melnikov.melnikov_quadrature", "orbits.periodic.periodic_orbits",
+    "attraction.attractors.find_attractors", "attraction.attractors.settle", "attraction.basins.basins",
+    "attraction.boundary.line_of_starts", "attraction.contact.homoclinic_strips", "attraction.contact.first_contact",
+    "attraction.crisis.large_saddle",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_a_family_is_refused_where_one_oscillator_is_needed(name):
+    with pytest.raises(ValueError, match=r"osc has the shape \(2,\): must be a single oscillator"):
+        call(name, osc=Duffing(alpha=0.1, mu=[0.02, 0.03]))
