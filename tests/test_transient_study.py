@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import ConvergenceError, paper, poincare_section
+from duffing import ConvergenceError, paper, poincare_section, trajectory
 from duffing.attraction.survival import exponential
 from duffing.book import transient_study
 
@@ -94,6 +94,27 @@ def test_the_papers_motion_lives_as_long_as_it_jumps():
     points = poincare_section(osc, paper.START, paper.PERIODS, **STEP)
     away = np.flatnonzero(np.hypot(*(points - points[:, -1:])) > 0.1)
     assert by_step == away[-1] + 2  # point k is number k + 1, and the next one is inside
+
+
+def test_large_are_those_round_both_wells_that_repeat_themselves_each_period():
+    """At this forcing all starts end round both wells, most on the large orbit and some on one of two periods."""
+    _, settled, large = transient_study.sample(0.27, 2.0, 8, 5, periods=400)
+    family = replace(paper.OSCILLATOR, p=2.0, mu=np.full(40, 0.27))
+    points = poincare_section(family, transient_study.between(8, 5), 2, transient=600, **STEP)
+    repeats = np.hypot(*(points[:, 1] - points[:, 0])) < 1e-6
+    assert settled.all() and 0 < repeats.sum() < 40
+    np.testing.assert_array_equal(large, repeats)
+
+
+def test_a_passage_ends_with_the_first_period_after_which_the_orbit_is_away():
+    distance = (1e-3, 3e-4)
+    periods = transient_study.ghost(distance)
+    mu, state = transient_study.folds((0.1,))
+    for number, above in zip(periods.tolist(), distance, strict=True):
+        osc = replace(paper.OSCILLATOR, mu=mu[0] + above)
+        times = osc.period * np.arange(number + 1)
+        away = np.hypot(*(trajectory(osc, state[:, 0], times, rtol=1e-8, atol=1e-10) - state))
+        assert away[:-1].max() < 0.1 < away[-1]
 
 
 def test_starts_between_the_wells_fill_their_box():
