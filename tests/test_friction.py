@@ -453,3 +453,11 @@ def test_a_long_step_from_a_turning_point_does_not_excuse_itself_by_where_it_lea
     osc = Duffing(p=np.array([0.2, 0.05]), mu=np.array([0.27, 0.3]))
     states = friction.integrate(osc, (0.45, 0.1), osc.period * np.arange(240), rtol=1e-8, atol=1e-10).states
     assert np.max(np.abs(states[0])) < 2.0
+
+
+@pytest.mark.parametrize("tangents", [0, 1, 2])
+def test_a_solution_that_becomes_infinite_ends_by_name_whatever_is_carried_along(tangents):
+    """A found failure: with two tangents their frame collapsed at each of the last steps, and none was counted."""
+    osc = Duffing(alpha=0.03, p=2.12, mu=-0.14, omega=2.36, delta=-1.1, gamma=-0.285)
+    with pytest.raises((ConvergenceError, DivergedError), match=r"alpha = 0\.03, p = 2\.12"):
+        friction.integrate(osc, (0.9, 0.0), [0, osc.period], tangents=tangents, rtol=1e-6, atol=1e-8)

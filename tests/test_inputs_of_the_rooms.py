@@ -9,9 +9,12 @@ from importlib import import_module
 import numpy as np
 import pytest
 from bad_inputs import BAD, COUNTS, NOTHING, NUMBERS, POSITIVE
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from duffing import Duffing, attraction, orbits
+from duffing import Duffing, DuffingError, attraction, orbits
 from duffing.attraction.crisis import large_saddle
+from duffing.orbits.bifurcations import orbit_branches
 
 OSC = Duffing(alpha=0.1, p=1.0, mu=0.02)
 STRONG = Duffing(alpha=0.1, p=1.0, mu=0.3)
@@ -179,3 +182,47 @@ SINGLE = (
 def test_a_family_is_refused_where_one_oscillator_is_needed(name):
     with pytest.raises(ValueError, match=r"osc has the shape \(2,\): must be a single oscillator"):
         call(name, osc=Duffing(alpha=0.1, mu=[0.02, 0.03]))
+
+
+# What takes no more than some seconds with any oscillator.
+ANY_OSCILLATOR = (
+    "manifolds.stable_manifold", "sticking.saddle_friction_time", "correction.tangency_correction",
+    "orbits.periodic.periodic_orbit", "orbits.periodic.periodic_orbits", "orbits.periodic.path",
+    "orbits.diagram.bifurcation_diagram", "attraction.attractors.find_attractors",
+    "attraction.contact.homoclinic_strips", "attraction.fates.fate", "attraction.lifetimes.lifetimes",
+)  # fmt: skip
+
+
+def numbers_of(result):
+    if isinstance(result, tuple | list):
+        return [number for part in result for number in numbers_of(part)]
+    return [result] if isinstance(result, float | np.ndarray) else []
+
+
+@pytest.mark.parametrize("name", ANY_OSCILLATOR)
+@given(
+    alpha=st.floats(0, 0.5),
+    p=st.floats(0.1, 3),
+    mu=st.floats(-0.5, 0.5),
+    omega=st.floats(0.3, 3),
+    delta=st.floats(-2, 2),
+    gamma=st.floats(-1, 2),
+)
+@settings(max_examples=10, deadline=None, derandomize=True)
+def test_any_oscillator_is_answered_with_finite_numbers_or_refused(name, **parameters):
+    try:
+        result = call(name, osc=Duffing(**parameters))
+    except DuffingError as error:
+        assert str(error)
+    except ValueError as error:
+        assert any(f"{parameter} = " in str(error) for parameter in parameters)
+    else:
+        infinite = name == "sticking.saddle_friction_time"  # where the orbit sticks, and then it says so
+        assert all(np.all(np.isfinite(number) | (infinite & (number == np.inf))) for number in numbers_of(result))
+
+
+def test_steps_that_are_too_long_to_be_squared_are_not_taken():
+    """A found failure: Newton's method with steps of 1e200, whose length NumPy could only warn of."""
+    osc = Duffing(alpha=[6.0], p=15.3, mu=2.83, omega=7.6, delta=2.3e-313, gamma=4.1e-221)
+    with pytest.raises(DuffingError, match="Newton's method finds no solution"):
+        orbit_branches(osc, [[0.0], [-2.43]], bounds=(-4.0, 4.0), points=8)

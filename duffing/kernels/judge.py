@@ -86,7 +86,8 @@ def _judge_lane(a, l, component, tangents, control, kind):
     tame = (a[GAMMA + l] == 0.0) & (a[P + l] <= 1.0)
     event = event if abs(x) < (_OVERFLOWS if tame else _ESCAPED) else DIVERGED
     event = event if fits else GOING
-    event = TOO_MANY_STEPS if (event == GOING) & (a[STEPS + l] >= most_steps) else event
+    goes_on = (event == GOING) | (event == COLLAPSES)  # where a solution blows up the frame may collapse at every step
+    event = TOO_MANY_STEPS if goes_on & (a[STEPS + l] >= most_steps) else event
     a[EVENT + l] = ARRIVES if arrives else event
 
 
