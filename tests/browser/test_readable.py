@@ -92,3 +92,9 @@ def test_every_picture_says_what_is_seen_and_not_its_caption(visit):
     for alternative, caption in pictures:
         assert len(alternative) > 20, caption
         assert alternative.strip() != caption.strip()
+
+
+def test_no_slider_is_too_short_for_a_finger(visit):
+    visit.look(width=PHONE)
+    sliders = visit.page.locator("input[type=range]").all()
+    assert all(slider.bounding_box()["width"] > 150 for slider in sliders)
