@@ -108,8 +108,10 @@ def diffrax(osc, periods):
     half, none = np.array([0.5]), np.zeros(4)
     table = dfx.ButcherTableau(
         a_lower=(half, np.array([0.0, 0.5]), np.array([0.0, 0.0, 1.0])),
-        b_sol=np.array([1, 2, 2, 1]) / 6, b_error=none, c=np.array([0.5, 0.5, 1.0]),
-    )  # the textbook's table  # fmt: skip
+        b_sol=np.array([1, 2, 2, 1]) / 6,
+        b_error=none,
+        c=np.array([0.5, 0.5, 1.0]),
+    )
 
     class RungeKutta4(dfx.AbstractERK):
         tableau = table
@@ -126,9 +128,17 @@ def diffrax(osc, periods):
 
     def period(y, mu):
         y = dfx.diffeqsolve(
-            dfx.ODETerm(slope), RungeKutta4(), 0.0, osc.period, osc.period / STEPS, y, mu,
-            stepsize_controller=dfx.ConstantStepSize(), saveat=dfx.SaveAt(t1=True), max_steps=STEPS + 2,
-        ).ys[0]  # the problem, then what is asked of the solver  # fmt: skip
+            dfx.ODETerm(slope),
+            RungeKutta4(),
+            0.0,
+            osc.period,
+            osc.period / STEPS,
+            y,
+            mu,
+            stepsize_controller=dfx.ConstantStepSize(),
+            saveat=dfx.SaveAt(t1=True),
+            max_steps=STEPS + 2,
+        ).ys[0]
         length = jnp.hypot(y[2], y[3])
         return y.at[2:].divide(length), jnp.log(length)
 
@@ -189,8 +199,10 @@ def heyoka(osc, periods, tol=0.0, tangent=True):
     rows = 4 if tangent else 2
     integrator = hy.taylor_adaptive_batch(
         hy.var_ode_sys(system, [x]) if tangent else system,
-        np.zeros((2, batch)), pars=np.zeros((1, batch)), tol=tol,
-    )  # the equations, then what is asked of the solver  # fmt: skip
+        np.zeros((2, batch)),
+        pars=np.zeros((1, batch)),
+        tol=tol,
+    )
     blocks = np.resize(osc.mu, (-(-osc.mu.size // batch), batch))
     start = np.repeat(np.array([*START, 1.0, 0.0])[:rows, None], batch, axis=1)
 

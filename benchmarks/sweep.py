@@ -51,7 +51,9 @@ def contestants(p, size):
         return Contestant(name, lambda: prepare(osc, periods), members * periods, check)
 
     def scheme(name, prepare, members, periods=COMPARED, direction=(1.0, 0.0)):
-        expected = lambda osc: rewrites.numpy(osc, COMPARED, direction)()  # noqa: E731 - as short as it is clear
+        def expected(osc):
+            return rewrites.numpy(osc, COMPARED, direction)()
+
         return enter(name, prepare, members, periods, expected, SAME_SCHEME)
 
     def solver(name, prepare, members):

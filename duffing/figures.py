@@ -8,9 +8,8 @@ import numpy as np
 
 from .page_figure import PageFigure, styled
 
-BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE, GREY = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#767676",
-)  # names and values side by side  # fmt: skip
+BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
+BLUE, VERMILION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#767676"
 P_COLOUR = {0.1: VERMILION, 0.3: PURPLE, 0.5: ORANGE, 0.75: "#882255", 1.0: BLUE, 1.5: SKY, 2.0: GREEN, 3.0: BLACK}
 P_DASH = {
     0.1: "-",
@@ -152,8 +151,14 @@ def fig5(transient, steady, transient_points, steady_points, settled=1200.0):
             continue
         width = 0.5 if layer == 0 else 0.9
         axes.plot(*path, color=colour, linewidth=width, zorder=2 + 2 * layer, label=f"path {when} $t = {settled:g}$")
-        axes.plot(*points, "o", color=BLACK if layer else BLUE, markersize=3.2, zorder=3 + 2 * layer,
-                  label=f"stroboscopic points {when}")  # one call, two lines  # fmt: skip
+        axes.plot(
+            *points,
+            "o",
+            color=BLACK if layer else BLUE,
+            markersize=3.2,
+            zorder=3 + 2 * layer,
+            label=f"stroboscopic points {when}",
+        )
     fig.legend(loc="outside upper center", ncols=2)
     return fig
 

@@ -83,7 +83,7 @@ CALLS = {
         "label": sides, "box": ((-1, 1), (-1, 1)), "eps": [0.1], "starts": 10, "seed": 1
     },
     "attraction.uncertainty.dimension": {"eps": [0.1, 0.01, 0.001], "uncertain": [30, 10, 3], "starts": 100},
-}  # fmt: skip
+}  # an entry a line, or two  # fmt: skip
 # Those that take what another one gave, or what a caller inside the package has checked.
 WITHIN = {
     "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
@@ -175,7 +175,7 @@ SINGLE = (
     "attraction.attractors.find_attractors", "attraction.attractors.settle", "attraction.basins.basins",
     "attraction.boundary.line_of_starts", "attraction.contact.homoclinic_strips", "attraction.contact.first_contact",
     "attraction.crisis.large_saddle",
-)  # fmt: skip
+)  # names in rows, not a column  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SINGLE)
@@ -190,7 +190,7 @@ ANY_OSCILLATOR = (
     "orbits.periodic.periodic_orbit", "orbits.periodic.periodic_orbits", "orbits.periodic.path",
     "orbits.diagram.bifurcation_diagram", "attraction.attractors.find_attractors",
     "attraction.contact.homoclinic_strips", "attraction.fates.fate", "attraction.lifetimes.lifetimes",
-)  # fmt: skip
+)  # names in rows, not a column  # fmt: skip
 
 
 def numbers_of(result):

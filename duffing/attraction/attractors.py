@@ -115,11 +115,13 @@ def ordered(attractors):
     return tuple(sorted(attractors, key=rank))
 
 
-def _settle(osc, states, attractors, periods, phase, run, options):
-    """Settled, and the states (2, n) that nothing has caught, as they are at the end. run : how, for `over_blocks`."""
+def _settle(osc, now, attractors, periods, phase, run, options):
+    """Settled from the states `now` (2, N), and those that nothing has caught, as they are at the end (2, n).
+
+    run : how, for `over_blocks`
+    """
     checks.single(osc)
     checks.count("periods", periods)
-    now = states
     labels, caught = np.full(now.shape[1], UNRESOLVED), np.full(now.shape[1], np.inf)
     live, streaks = np.arange(now.shape[1]), np.zeros((len(attractors), now.shape[1]))
     first, search = 0, 2 * LONGEST

@@ -8,10 +8,17 @@ from .. import checks
 from .attractors import UNRESOLVED, find_attractors, settle
 
 # What the label of a basin says whatever else attracts at the same parameters: the colours of pictures go by it.
+# Two in a place, the second for all but the smallest orbit.
 KINDS = (
-    "left well", "left well, larger orbit", "right well", "right well, larger orbit",
-    "round both wells", "round both, other", "chaotic", "unresolved",
-)  # two in a place, the second for all but the smallest orbit  # fmt: skip
+    "left well",
+    "left well, larger orbit",
+    "right well",
+    "right well, larger orbit",
+    "round both wells",
+    "round both, other",
+    "chaotic",
+    "unresolved",
+)
 
 
 class Basins(NamedTuple):

@@ -36,9 +36,7 @@ class Wandering(NamedTuple):
     periods: np.ndarray
 
 
-def wandering(
-    osc, starts, periods=240, method="auto", executor=None, progress=None, checkpoint=None, **options,
-):  # the problem, then how it is run  # fmt: skip
+def wandering(osc, starts, periods=240, method="auto", executor=None, progress=None, checkpoint=None, **options):
     """The Wandering of the starts (2, m) under each of the oscillators (n,), watched for `periods` forcing periods.
 
     executor, progress, checkpoint : as for `lifetimes`

@@ -13,9 +13,15 @@ def exponent_plane(values, mu, exponent, critical, tangency, xlabel):
     (half_x, half_y) = ((values[-1] - values[0]) / (len(values) - 1) / 2, (mu[-1] - mu[0]) / (len(mu) - 1) / 2)
     extent = (values[0] - half_x, values[-1] + half_x, mu[0] - half_y, mu[-1] + half_y)
     image = axes.imshow(
-        exponent, origin="lower", extent=extent, aspect="auto", interpolation="nearest",
-        cmap="PuOr_r", vmin=-_LIMIT, vmax=_LIMIT,
-    )  # what it is, then how it looks  # fmt: skip
+        exponent,
+        origin="lower",
+        extent=extent,
+        aspect="auto",
+        interpolation="nearest",
+        cmap="PuOr_r",
+        vmin=-_LIMIT,
+        vmax=_LIMIT,
+    )
     axes.grid(False)
     axes.plot(*critical, color=BLACK, linewidth=2, label=r"critical amplitude $\mu_c$, Eq. 13")
     axes.plot(*tangency, "x", color=GREEN, markersize=8, markeredgewidth=2.2, label="homoclinic tangency, computed")

@@ -19,9 +19,16 @@ def ratios(names, medians):
         places = np.arange(len(names)) + (row - (len(medians) - 1) / 2) * height
         given = np.isfinite(values)
         axes.barh(
-            places[given], values[given] - 1, 0.9 * height, left=1, color=P_COLOUR[p], hatch="//" if row else None,
-            edgecolor="white", linewidth=0, label=f"$p = {p:g}$",
-        )  # the bars, then their look  # fmt: skip
+            places[given],
+            values[given] - 1,
+            0.9 * height,
+            left=1,
+            color=P_COLOUR[p],
+            hatch="//" if row else None,
+            edgecolor="white",
+            linewidth=0,
+            label=f"$p = {p:g}$",
+        )
         for place, value in zip(places, values, strict=True):
             if np.isfinite(value):
                 axes.text(

@@ -150,9 +150,14 @@ def _perturbed_manifolds():
 @finds(FINDINGS, "eq-13")
 def _critical_amplitude():
     printed = (
-        ALPHA * 2 ** (P / 2) / (sp.pi * OMEGA) * (-DELTA) ** (P + sp.Rational(1, 2)) / GAMMA ** (P / 2)
-        * sp.beta((P + 2) / 2, (P + 1) / 2) * sp.cosh(sp.pi * OMEGA / (2 * sp.sqrt(-DELTA)))
-    )  # as the equation is printed  # fmt: skip
+        ALPHA
+        * 2 ** (P / 2)
+        / (sp.pi * OMEGA)
+        * (-DELTA) ** (P + sp.Rational(1, 2))
+        / GAMMA ** (P / 2)
+        * sp.beta((P + 2) / 2, (P + 1) / 2)
+        * sp.cosh(sp.pi * OMEGA / (2 * sp.sqrt(-DELTA)))
+    )
     proved = sp.simplify(sp.powsimp(critical_amplitude(SYMBOLIC) / printed, force=True)) == 1
     with mpmath.workdps(65):
         osc = Duffing(*map(mpmath.mpf, ("0.1", "0.1", "0.27", "1", "-1", "1")))

@@ -148,7 +148,7 @@ def correct(function, z, normal, member, tolerance):
         right = np.zeros((live.size, m + 1, 1))
         right[:, :m, 0] = -g.T
         change = _solve(jacobian[live], normal[:, live], right)[..., 0].T
-        size_of = np.linalg.norm(np.clip(change, -1e100, 1e100), axis=0)  # far too long is long enough to be squared
+        size_of = np.linalg.norm(np.clip(change, -1e100, 1e100), axis=0)  # a step that is far too long has a square
         sound = size_of < _FAR
         z[:, live[sound]] += change[:, sound]
         done = sound & (size_of < tolerance)
