@@ -73,7 +73,7 @@ def height(alpha, mu, omega, x):
 
 @compiled
 def next_stop(alpha, mu, omega, x, t):
-    """Position and time at which the mass stops next that is at rest at x at the time t; t is infinite if it does not."""
+    """Position and time at which the mass stops next that is at rest at x at the time t (infinite: never)."""
     t, direction = _release(alpha, mu, omega, x, t)
     v, end = 0.0, t + _LONGEST
     while t < end:

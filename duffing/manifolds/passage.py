@@ -12,10 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import checks
 from ..errors import NoSaddleOrbitError
 from ..flow import integrate
 from ..oscillator import Duffing
-from .saddle import at_rest, names
+from .saddle import at_rest
 from .shooting import central_orbit
 
 _ROUNDS = 12  # forcing periods over which a direction is carried until it is that of W^U
@@ -43,25 +44,26 @@ class ForwardFrame(NamedTuple):
     covectors: np.ndarray
 
 
-def forward_frame(unit):
-    """The ForwardFrame of the dimensionless family `unit` of N members, also where its saddle orbits stick.
+def forward_frame(osc):
+    """The ForwardFrame of the family's N saddle orbits, also where they stick.
 
-    Raises NoSaddleOrbitError naming the first member whose orbit was not found, is no saddle between the wells, or
+    Raises ValueError unless delta < 0 < gamma; NoSaddleOrbitError naming the first member whose orbit was not found, is no saddle between the wells, or
     repels so slowly that its neighbours stay on the hump for as long as can be computed.
     """
-    _refuse(unit, at_rest(unit), "for p < 1 it is at rest at mu = 0, and the damping has no linearisation at v = 0")
+    unit = checks.model(osc).dimensionless().members()
+    _refuse(osc, at_rest(unit), "for p < 1 it is at rest at mu = 0, and the damping has no linearisation at v = 0")
     (t, states, maps, _), found = central_orbit(unit)
-    _refuse(unit, ~found, "Newton's method, with continuation from weaker forcing, does not find it")
+    _refuse(osc, ~found, "Newton's method, with continuation from weaker forcing, does not find it")
     directions, growth = _unstable(maps)
     _refuse(
         unit, np.abs(states[0]).max(axis=0) >= 1, "the periodic orbit that continues x = 0 is not between the wells"
     )
     rate = growth.sum(axis=0) / t[-1]
-    _refuse(unit, ~(rate > 0), "the periodic orbit that continues x = 0 is no longer a saddle")
+    _refuse(osc, ~(rate > 0), "the periodic orbit that continues x = 0 is no longer a saddle")
     slow = (
         f"its neighbours creep, and leave it at a rate below {_LEAST:g}: an interval of positions is caught on the hump"
     )
-    _refuse(unit, rate < _LEAST, slow)
+    _refuse(osc, rate < _LEAST, slow)
     covectors = _covectors(maps, directions)
     # The orbit's second half mirrors the first: (-x, -v) has the same tangent maps.
     return ForwardFrame(
@@ -87,7 +89,7 @@ def overshoot(frame, x, t, member):
     looks = first + np.arange(int(np.ceil(_TIME / step.min())) + 1)[:, None]
     times = np.concatenate([t[None], looks * step])
     start = np.array([x, np.zeros_like(x)])
-    orbit = integrate(Duffing(*frame.osc.columns()[:, member]), start, times, **_TOLERANCE)
+    orbit = integrate(frame.osc.members(member), start, times, **_TOLERANCE)
     away = orbit.states[:, 1:] - frame.states[:, looks % nodes, member]
     entered = np.logical_or.accumulate(away[0] < _NEAR, axis=0)
     left = (entered & (np.abs(away[0]) > _NEAR)) | (~entered & (orbit.states[1, 1:] > 0))
@@ -135,9 +137,9 @@ def _covectors(maps, directions):
     return covectors
 
 
-def _refuse(unit, members, reason):
+def _refuse(osc, members, reason):
     """Raise NoSaddleOrbitError, naming the first of the members (N,) marked."""
     marked = np.flatnonzero(members)
     if marked.size:
-        member = names(unit, marked[0])
-        raise NoSaddleOrbitError(f"no saddle orbit for {member} ({marked.size} such members, dimensionless): {reason}")
+        member = osc.named(marked[0])
+        raise NoSaddleOrbitError(f"no saddle orbit for {member} ({marked.size} such members): {reason}")

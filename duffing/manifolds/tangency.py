@@ -8,6 +8,8 @@ beyond the bottom of the well only, so that no turning point of the slow departu
 For p < 1/2 W^S cannot be followed backward through a creep; `threshold` finds it forward, and the tangency with it.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from .. import checks
@@ -18,7 +20,7 @@ from ..oscillator import Duffing
 from . import threshold
 from .curves import DISTANCE, STABLE, UNSTABLE, launch
 from .passage import forward_frame
-from .saddle import names, saddle_frame, unit_members, units
+from .saddle import saddle_frame
 
 METHODS = ("auto", "manifolds", "threshold")
 
@@ -46,12 +48,16 @@ def splitting(osc, phase, method="auto"):
         raise ValueError(f"phase has shape {phase.shape}: must be a number or a sequence of them")
     phases = np.mod(phase.ravel(), 2 * np.pi)
 
-    def follow(unit):
-        frame = saddle_frame(unit)
+    def follow(part):
+        frame = saddle_frame(part)
         return _split(frame, np.repeat(phases[:, None], frame.osc.mu.size, axis=1))[0]
 
-    values = _by_method(unit_members(osc), method, follow, lambda unit: threshold.split(forward_frame(unit), phases))
-    return (values.reshape(phase.shape + osc.shape) * units(osc)[0])[()]
+    def part_orbits(part):
+        return threshold.split(forward_frame(part), phases)
+
+    checks.double_well(osc)
+    values = _by_method(osc.members(), method, follow, part_orbits)
+    return (values.reshape(phase.shape + osc.shape) * osc.units()[0])[()]
 
 
 def homoclinic_tangency(osc, method="auto"):
@@ -64,7 +70,7 @@ def homoclinic_tangency(osc, method="auto"):
     computed all round to make sure that no other phase is ahead. "threshold": the least mu at which an orbit of W^U
     goes over the hump; no derivative is taken. Raises ConvergenceError also where mu is too small for doubles.
     """
-    unit = unit_members(osc)
+    unit = checks.model(osc).dimensionless().members()
     mu = np.array(critical_amplitude(unit))
     if not np.all(unit.alpha > 0):
         raise ValueError(
@@ -72,22 +78,22 @@ def homoclinic_tangency(osc, method="auto"):
         )
     if np.any(mu < _LEAST):
         raise ConvergenceError(
-            f"{names(unit, mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
+            f"{unit.named(mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
         )
-    values = _by_method(_forced(unit, mu), method, _contact, threshold.tangency)
-    return (values.reshape(osc.shape) * units(osc)[2])[()]
+    values = _by_method(replace(unit, mu=mu), method, _contact, threshold.tangency)
+    return (values.reshape(osc.shape) * osc.units()[2])[()]
 
 
-def _by_method(unit, method, manifolds, forward):
-    """Values (..., N) of the family's members, each by the function of its method."""
+def _by_method(osc, method, manifolds, forward):
+    """Values (..., N) of the N members, each by the function of its method."""
     checks.choice("method", method, METHODS)
-    creeps = (unit.p < 0.5) & (unit.alpha > 0) if method == "auto" else np.full(unit.mu.size, method == "threshold")
+    creeps = (osc.p < 0.5) & (osc.alpha > 0) if method == "auto" else np.full(osc.mu.size, method == "threshold")
     values = None
-    for function, members in ((manifolds, ~creeps), (forward, creeps)):
-        if members.any():
-            part = function(Duffing(*unit.columns()[:, members]))
-            values = np.empty((*part.shape[:-1], unit.mu.size)) if values is None else values
-            values[..., members] = part
+    for function, which in ((manifolds, ~creeps), (forward, creeps)):
+        if which.any():
+            part = function(osc.members(which))
+            values = np.empty((*part.shape[:-1], osc.mu.size)) if values is None else values
+            values[..., which] = part
     return values
 
 
@@ -96,7 +102,7 @@ def _contact(unit):
     mu, phase = unit.mu, np.full(unit.mu.size, np.pi / 2)
     for _ in range(4):
         mu, phase = _touch(unit, mu, phase)
-        height, ahead = _highest(saddle_frame(_forced(unit, mu)))
+        height, ahead = _highest(saddle_frame(replace(unit, mu=mu)))
         behind = height < 1e-6 * mu
         if behind.all():
             return mu
@@ -110,7 +116,7 @@ def _touch(unit, mu, phase):
     curvature = -rate * mu
     last = None
     for _ in range(30):
-        value, slope = (a[0] for a in _split(saddle_frame(_forced(unit, mu)), phase[None]))
+        value, slope = (a[0] for a in _split(saddle_frame(replace(unit, mu=mu)), phase[None]))
         if last is not None:
             # Secants. A step too small to measure a derivative leaves it alone.
             moved = np.abs(phase - last[1]) > 1e-6
@@ -179,7 +185,7 @@ def _crossing(frame, kind, phase, member):
         if left.size == 0:
             return result
     raise ConvergenceError(
-        f"{names(frame.osc, member[left[0]])}: {('W^U', 'W^S')[kind]} has no first crossing of v = 0, x > 1 "
+        f"{frame.osc.named(member[left[0]])}: {('W^U', 'W^S')[kind]} has no first crossing of v = 0, x > 1 "
         f"(dimensionless) at the phase {phase[left[0]]:g}"
     )
 
@@ -187,21 +193,14 @@ def _crossing(frame, kind, phase, member):
 def _follow(frame, kind, t, member):
     """The crossing that follows from the launch at about the times t (n,): TurningPoint, dx / dt, dt_crossing / dt."""
     start, state, rate = launch(frame, kind, t, member)
-    family = Duffing(*frame.osc.columns()[:, member])
     direction = 1 if kind == UNSTABLE else -1
-    found = to_turning_point(family, state, start, direction=direction, beyond=1.0, derivatives=True)
+    found = to_turning_point(frame.osc.members(member), state, start, direction=direction, beyond=1.0, derivatives=True)
     return found, (rate * found.dx).sum(axis=0), (rate * found.dt).sum(axis=0)
 
 
 def _height(unit):
     """d splitting / d mu of the Melnikov function at its greatest: forcing integral over dH0/dx at x = sqrt(2)."""
     return forcing_integral(unit) / np.sqrt(2)
-
-
-def _forced(unit, mu):
-    columns = unit.columns()
-    columns[2] = mu
-    return Duffing(*columns)
 
 
 def with_tangency(p, **parameters):

@@ -11,15 +11,13 @@ from scipy.optimize import elementwise
 
 from ..errors import ConvergenceError
 from ..integrators.friction_time.turning_points import to_turning_point
-from ..oscillator import Duffing
 from .curves import DISTANCE
 from .passage import forward_frame, overshoot
-from .saddle import names
 
 _LOWEST, _HIGHEST = 1.0, 2.5  # bracket of x_s
 _ALL_ROUND, _LAUNCHES = 65, 17  # launches from one point of W^U to its image, and in a window about the best of them
 _ZOOMS = 8  # each makes the window four times narrower
-_FLAT = 0.01
+_FLAT = 0.01  # of the height: neighbours that are lower by less are as high
 _MARGIN = 0.05  # the image is known to the first order in the distance of the launch
 _FACTOR, _STEPS = 1.03, 30  # of mu from one trial to the next in search of a bracket
 _EXACT = {"xatol": 1e-14, "xrtol": 0, "fatol": 0, "frtol": 0}
@@ -44,8 +42,8 @@ def threshold(frame, phase, member):
         missing = np.flatnonzero(~overshoot(frame, found.x, t, member)[1])
     if missing.size:
         raise ConvergenceError(
-            f"{names(frame.osc, member[missing[0]])}: on v = 0 at the phase {phase[missing[0]]:g} no x from {_LOWEST:g} "
-            f"to {_HIGHEST:g} (dimensionless) parts the orbits that fall back from those that go over the hump"
+            f"{frame.osc.named(member[missing[0]])}: on v = 0 at the phase {phase[missing[0]]:g} no x "
+            f"from {_LOWEST:g} to {_HIGHEST:g} (dimensionless) parts those that fall back from those that go over the hump"
         )
     return found.x
 
@@ -58,8 +56,9 @@ def launched(frame, place, member):
     node = frame.growth.argmax(axis=0)[member]  # where the orbit creeps least
     direction = frame.directions[:, node, member]
     offset = DISTANCE * np.exp(place * frame.growth.sum(axis=0)[member]) * np.sign(direction[0]) * direction
-    family = Duffing(*frame.osc.columns()[:, member])
-    return to_turning_point(family, frame.states[:, node, member] + offset, frame.t[node, member], beyond=1.0)
+    return to_turning_point(
+        frame.osc.members(member), frame.states[:, node, member] + offset, frame.t[node, member], beyond=1.0
+    )
 
 
 def crossing(frame, phase, member):
@@ -76,8 +75,8 @@ def crossing(frame, phase, member):
     if not found.success.all():
         missing = np.argmin(found.success)
         raise ConvergenceError(
-            f"{names(frame.osc, member[missing])}: W^U has no first crossing of v = 0, x > 1 (dimensionless) at the phase "
-            f"{phase[missing]:g}"
+            f"{frame.osc.named(member[missing])}: W^U has no first crossing of v = 0, x > 1 "
+            f"(dimensionless) at the phase {phase[missing]:g}"
         )
     return launched(frame, found.x, member).x
 
@@ -93,7 +92,7 @@ def highest(frame):
     """Greatest overshoot (N,) of the orbits of W^U: positive where one of them goes over the hump.
 
     The launches draw together about the best of them until their neighbours are as high, in proportion to the height:
-    near zero the whole way. Nothing is assumed of the maximum but that it is wider than two launches of the first round.
+    near zero the whole way. No smoothness is assumed; the peak must be wider than two launches of the first round.
     """
     left = np.arange(frame.osc.mu.size)
     result, centre = np.empty(left.size), np.full(left.size, 0.5)
@@ -116,17 +115,15 @@ def highest(frame):
 def tangency(unit):
     """The mu (N,) at which W^U and W^S of the dimensionless family first touch, near its own mu (N,).
 
-    Raises NoSaddleOrbitError as `forward_frame`, ConvergenceError where there is no bracket between 0.4 and 2.4 times that.
+    Raises NoSaddleOrbitError as `forward_frame`, ConvergenceError where none is between 0.4 and 2.4 times that.
     """
-    columns, mu = unit.columns(), unit.mu
 
     def top(mu, member):
-        part = columns[:, member.ravel()]
-        part[2] = mu.ravel()
-        return highest(forward_frame(Duffing(*part))).reshape(mu.shape)
+        forced = unit.members(member.ravel(), mu=mu.ravel())
+        return highest(forward_frame(forced)).reshape(mu.shape)
 
-    who = left = np.arange(mu.size)
-    over, near, far = top(mu, who) > 0, np.array(mu), np.array(mu)
+    mu, who = unit.mu, np.arange(unit.mu.size)
+    over, near, far, left = top(mu, who) > 0, np.array(mu), np.array(mu), who
     for _ in range(_STEPS):
         far[left] = near[left] * np.where(over[left], 1 / _FACTOR, _FACTOR)
         left = left[(top(far[left], left) > 0) == over[left]]
@@ -135,6 +132,6 @@ def tangency(unit):
             return elementwise.find_root(top, bracket, args=(who,), tolerances=_TOLERANCE).x
         near[left] = far[left]
     raise ConvergenceError(
-        f"{names(unit, left[0])}: no tangency was found at mu between {min(mu[left[0]], far[left[0]]):g} and "
+        f"{unit.named(left[0])}: no tangency was found at mu between {min(mu[left[0]], far[left[0]]):g} and "
         f"{max(mu[left[0]], far[left[0]]):g} (dimensionless)"
     )
