@@ -18,7 +18,9 @@ from duffing.integrators.compiled import compiled
 
 from ..remember import remembered
 
-_BESIDE = 2e-3  # distance at rest of the first position from the saddle orbit; the last is its image a period later
+_BESIDE = (
+    0.02  # times alpha: distance of the first position from the saddle orbit's; the last is its image a period later
+)
 _POSITIONS = 65
 _STOPS, _STEP, _LONGEST = 40, 0.004, 100.0
 
@@ -36,18 +38,18 @@ def dry_friction_tangency(alpha, omega=1.0):
 
 def _highest(alpha, mu, omega):
     """The greatest height of W^U over the hump, see `height`."""
-    start = -np.pi / 2 / omega
+    start, beside = -np.pi / 2 / omega, _BESIDE * alpha
     saddle = brentq(lambda x: _stop(alpha, mu, omega, x, start)[0] + x, -alpha, 0.0, xtol=1e-15)
-    image = _stop(alpha, mu, omega, *_stop(alpha, mu, omega, saddle + _BESIDE, start))[0]
-    stretch = (image - saddle) / _BESIDE
+    image = _stop(alpha, mu, omega, *_stop(alpha, mu, omega, saddle + beside, start))[0]
+    stretch = (image - saddle) / beside
 
     def depth(place):
-        return -height(alpha, mu, omega, saddle + _BESIDE * stretch**place)
+        return -height(alpha, mu, omega, saddle + beside * stretch**place)
 
     places = np.linspace(0, 1, _POSITIONS)
     best = places[np.argmin([depth(place) for place in places])]
-    beside = best - places[1], best + places[1]
-    return -minimize_scalar(depth, bounds=beside, method="bounded", options={"xatol": 1e-7}).fun
+    bounds = best - places[1], best + places[1]
+    return -minimize_scalar(depth, bounds=bounds, method="bounded", options={"xatol": 1e-7}).fun
 
 
 def _stop(*arguments):

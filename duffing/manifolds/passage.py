@@ -47,8 +47,8 @@ class ForwardFrame(NamedTuple):
 def forward_frame(osc):
     """The ForwardFrame of the family's N saddle orbits, also where they stick.
 
-    Raises ValueError unless delta < 0 < gamma; NoSaddleOrbitError naming the first member whose orbit was not found, is no saddle between the wells, or
-    repels so slowly that its neighbours stay on the hump for as long as can be computed.
+    Raises ValueError unless delta < 0 < gamma; NoSaddleOrbitError naming the first member whose orbit was not found,
+    is no saddle between the wells, or repels so slowly that its neighbours stay on the hump as long as can be computed.
     """
     unit = checks.model(osc).dimensionless().members()
     _refuse(osc, at_rest(unit), "for p < 1 it is at rest at mu = 0, and the damping has no linearisation at v = 0")

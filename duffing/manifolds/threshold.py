@@ -9,12 +9,15 @@ dimensionless: delta = -1, gamma = 1.
 import numpy as np
 from scipy.optimize import elementwise
 
+from .. import checks
 from ..errors import ConvergenceError
+from ..flow import integrate
 from ..integrators.friction_time.turning_points import to_turning_point
 from .curves import DISTANCE
 from .passage import forward_frame, overshoot
 
 _LOWEST, _HIGHEST = 1.0, 2.5  # bracket of x_s
+_WELL = 0.5  # |x| beyond which an orbit from the hump is in a well
 _ALL_ROUND, _LAUNCHES = 65, 17  # launches from one point of W^U to its image, and in a window about the best of them
 _ZOOMS = 8  # each makes the window four times narrower
 _FLAT = 0.01  # of the height: neighbours that are lower by less are as high
@@ -42,8 +45,8 @@ def threshold(frame, phase, member):
         missing = np.flatnonzero(~overshoot(frame, found.x, t, member)[1])
     if missing.size:
         raise ConvergenceError(
-            f"{frame.osc.named(member[missing[0]])}: on v = 0 at the phase {phase[missing[0]]:g} no x "
-            f"from {_LOWEST:g} to {_HIGHEST:g} (dimensionless) parts those that fall back from those that go over the hump"
+            f"{frame.osc.named(member[missing[0]])}: on v = 0 at the phase {phase[missing[0]]:g} no x from {_LOWEST:g} "
+            f"to {_HIGHEST:g} (dimensionless) parts the orbits that fall back from those that go over the hump"
         )
     return found.x
 
@@ -135,3 +138,38 @@ def tangency(unit):
         f"{unit.named(left[0])}: no tangency was found at mu between {min(mu[left[0]], far[left[0]]):g} and "
         f"{max(mu[left[0]], far[left[0]]):g} (dimensionless)"
     )
+
+
+def caught(osc, phase, periods=20):
+    """The ends (2,) of the interval on v = 0, x > 1 (dimensionless) from which orbits neither fall back nor go over.
+
+    osc : a single oscillator, delta < 0 < gamma; phase : omega t (radian); periods : for which they stay on the hump
+
+    Where the saddle orbit repels, the interval shrinks to the point x_s as the periods grow: after a few its width is
+    rounding error. Where friction wins over the force, mu below about alpha at small p, the mass comes all but to rest
+    wherever it arrives, and the interval stays. Lengths in the oscillator's own unit. Errors as for `trajectory`,
+    ConvergenceError where orbits from x = 1 do not fall back or those from 2.5 do not go over.
+    """
+    unit = checks.single(osc).dimensionless()
+    checks.double_well(osc)
+    count = checks.count("periods", periods)
+    t = checks.number("phase", phase) / unit.omega + unit.period / 32 * np.arange(32 * count + 1)
+    bounds = np.array([[_LOWEST, _HIGHEST], [_LOWEST, _HIGHEST]])
+    ends = _fates(unit, bounds[0], t)
+    if tuple(ends) != (-1, 1):
+        raise ConvergenceError(f"{osc.named()}: the fates from the ends of the search, {ends}, are not -1 and 1")
+    while True:
+        middle = bounds.mean(axis=1)
+        if np.all((middle == bounds[:, 0]) | (middle == bounds[:, 1])):
+            return middle * osc.units()[0]
+        fates = _fates(unit, middle, t)
+        above = fates > np.array([-1, 0])  # of the lower end, of the upper end
+        bounds[:, 1], bounds[:, 0] = np.where(above, middle, bounds[:, 1]), np.where(above, bounds[:, 0], middle)
+
+
+def _fates(unit, x, t):
+    """-1 where the orbit from rest at x (n,) falls back first, 1 where it goes over the hump first, 0 where neither."""
+    orbit = integrate(unit.repeated(x.size), np.array([x, np.zeros_like(x)]), t, rtol=1e-12, atol=1e-14).states
+    back, over = (orbit[0] > _WELL) & (orbit[1] > 0), orbit[0] < -_WELL
+    first = (back | over).argmax(axis=0), np.arange(x.size)
+    return over[first].astype(int) - back[first]
