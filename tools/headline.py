@@ -9,7 +9,7 @@ from book.figures import index as figures_index
 from book.studies import reproduction
 from duffing import Duffing, critical_amplitude, homoclinic_tangency
 
-p, touching = np.linspace(0.02, 3.1, 300), np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
+p, touching = np.linspace(0.02, 3.1, 300), np.array([0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
 figure = figures_index.headline(
     p,
     critical_amplitude(Duffing(p=p)),

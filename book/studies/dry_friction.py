@@ -22,6 +22,7 @@ _BESIDE = (
     0.02  # times alpha: distance of the first position from the saddle orbit's; the last is its image a period later
 )
 _POSITIONS = 65
+_RATIOS = 0.8, 1.05  # mu / mu_c between which the tangency is looked for
 _STOPS, _STEP, _LONGEST = 40, 0.004, 100.0
 
 
@@ -29,11 +30,14 @@ _STOPS, _STEP, _LONGEST = 40, 0.004, 100.0
 def dry_friction_tangency(alpha, omega=1.0):
     """mu_t / mu_c for p = 0, to about 1e-8; alpha, omega : dimensionless, numbers > 0.
 
-    Raises ConvergenceError where the mass comes to rest for ever, or does not stop.
+    Raises ConvergenceError where there is none from 0.8 to 1.05, or where the mass comes to rest for ever.
     """
     alpha, omega = checks.positive("alpha", alpha), checks.positive("omega", omega)
     mu_c = 2 * alpha * np.cosh(np.pi * omega / 2) / (np.pi * omega)  # Eq. 13 as p goes to zero
-    return brentq(lambda ratio: _highest(alpha, ratio * mu_c, omega), 0.9, 1.02, xtol=1e-9)
+    low, high = _RATIOS
+    if not _highest(alpha, low * mu_c, omega) < 0 < _highest(alpha, high * mu_c, omega):
+        raise ConvergenceError(f"alpha = {alpha}, omega = {omega}: no tangency at mu from {low} to {high} mu_c")
+    return brentq(lambda ratio: _highest(alpha, ratio * mu_c, omega), low, high, xtol=1e-9)
 
 
 def _highest(alpha, mu, omega):

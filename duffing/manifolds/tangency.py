@@ -13,10 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from .. import checks
-from ..errors import ConvergenceError, NoSaddleOrbitError
+from ..errors import ConvergenceError
 from ..integrators.friction_time.turning_points import to_turning_point
 from ..melnikov import critical_amplitude, forcing_integral
-from ..oscillator import Duffing
 from . import threshold
 from .curves import DISTANCE, STABLE, UNSTABLE, launch
 from .passage import forward_frame
@@ -201,18 +200,3 @@ def _follow(frame, kind, t, member):
 def _height(unit):
     """d splitting / d mu of the Melnikov function at its greatest: forcing integral over dH0/dx at x = sqrt(2)."""
     return forcing_integral(unit) / np.sqrt(2)
-
-
-def with_tangency(p, **parameters):
-    """Those exponents of the sequence p for which `homoclinic_tangency` has an answer.
-
-    parameters : the other fields of Duffing. Returns a list.
-    """
-    found = []
-    for exponent in p:
-        try:
-            homoclinic_tangency(Duffing(p=exponent, **parameters))
-        except (ConvergenceError, NoSaddleOrbitError):
-            continue
-        found.append(exponent)
-    return found

@@ -16,7 +16,7 @@ from ..integrators.friction_time.turning_points import to_turning_point
 from .curves import DISTANCE
 from .passage import forward_frame, overshoot
 
-_LOWEST, _HIGHEST = 1.0, 2.5  # bracket of x_s
+_LOWEST, _HIGHEST = 1.01, 2.5  # bracket of x_s: from x = 1, a place of rest, a motion without force never starts
 _WELL = 0.5  # |x| beyond which an orbit from the hump is in a well
 _ALL_ROUND, _LAUNCHES = 65, 17  # launches from one point of W^U to its image, and in a window about the best of them
 _ZOOMS = 8  # each makes the window four times narrower
@@ -30,7 +30,7 @@ _TOLERANCE = {"xatol": 0, "xrtol": 1e-10, "fatol": 0, "frtol": 0}  # of the tang
 def threshold(frame, phase, member):
     """x_s (n,) at the phases (n,) of the frame's members (n,): the ForwardFrame of `forward_frame`.
 
-    Raises ConvergenceError where no x_s from 1 to 2.5 parts the orbits that fall back from those that go over.
+    Raises ConvergenceError where no x_s from 1.01 to 2.5 parts the orbits that fall back from those that go over.
     """
 
     def side(x, t, member):
@@ -148,7 +148,7 @@ def caught(osc, phase, periods=20):
     Where the saddle orbit repels, the interval shrinks to the point x_s as the periods grow: after a few its width is
     rounding error. Where friction wins over the force, mu below about alpha at small p, the mass comes all but to rest
     wherever it arrives, and the interval stays. Lengths in the oscillator's own unit. Errors as for `trajectory`,
-    ConvergenceError where orbits from x = 1 do not fall back or those from 2.5 do not go over.
+    ConvergenceError where orbits from x = 1.01 do not fall back or those from 2.5 do not go over.
     """
     unit = checks.single(osc).dimensionless()
     checks.double_well(osc)
@@ -157,7 +157,9 @@ def caught(osc, phase, periods=20):
     bounds = np.array([[_LOWEST, _HIGHEST], [_LOWEST, _HIGHEST]])
     ends = _fates(unit, bounds[0], t)
     if tuple(ends) != (-1, 1):
-        raise ConvergenceError(f"{osc.named()}: the fates from the ends of the search, {ends}, are not -1 and 1")
+        raise ConvergenceError(
+            f"{osc.named()}: the fates from the ends of the search, {ends.tolist()}, are not -1 and 1"
+        )
     while True:
         middle = bounds.mean(axis=1)
         if np.all((middle == bounds[:, 0]) | (middle == bounds[:, 1])):
