@@ -61,7 +61,7 @@ def test_crowding_crossings_below_the_tangency_have_dimension_one_when_the_cells
 
 
 def test_dimension_leaves_one_at_the_tangency_at_small_p():
-    """Below it the boundary crosses the line a few times, as often however near the tangency is; above it more often."""
+    """Below it the boundary crosses the line a few times, however near the tangency is; above it more often."""
     osc = basin_study.oscillator(0.1, 1.0)
     tangency = homoclinic_tangency(osc) / osc.mu
     far, before, after = (basin_study.strips(0.1, f * tangency, 3000).left.size for f in (0.99, 0.998, 1.002))

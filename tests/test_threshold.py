@@ -232,5 +232,5 @@ def test_what_has_no_answer_is_named():
         homoclinic_tangency(Duffing(alpha=0.1, p=0.1), method="manifolds")
     with pytest.raises(ValueError, match="periods = 0"):
         caught(Duffing(p=0.1, mu=0.05), 0.0, periods=0)
-    with pytest.raises(ConvergenceError, match="alpha = 0.6, omega = 1.0: no tangency"):
-        dry_friction_tangency(0.6)
+    with pytest.raises(ConvergenceError, match=r"alpha = 5\.0, omega = 1\.0: no tangency"):
+        dry_friction_tangency(5.0)

@@ -158,7 +158,7 @@ def caught(osc, phase, periods=20):
     ends = _fates(unit, bounds[0], t)
     if tuple(ends) != (-1, 1):
         raise ConvergenceError(
-            f"{osc.named()}: the fates from the ends of the search, {ends.tolist()}, are not -1 and 1"
+            f"{osc.named()}: the fates from the ends of the search are {ends.tolist()}, not -1 and 1"
         )
     while True:
         middle = bounds.mean(axis=1)
