@@ -1,8 +1,7 @@
-"""A family in one piece or in blocks: how large a block is, and whether anything has to be cut at all.
+"""A family piece by piece: how large a block of it is, and one block after the other.
 
-A member's numbers do not depend on its company, so neither do they on the blocks. Where nobody asks for an executor,
-for progress or for a checkpoint, and the family is small, the integrator has it whole; all else is for `sweep`, which
-is imported when it is called for.
+A member's numbers do not depend on its company, so neither do they on the blocks. Executors, progress and checkpoints
+are the work of `sweep`, which is imported when it is called for.
 """
 
 import os
@@ -11,6 +10,7 @@ import numpy as np
 
 from . import checks
 from .flow import METHODS
+from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better
 # Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
@@ -70,12 +70,12 @@ def over_blocks(
     threads = options.pop("threads", None)
     here = os.cpu_count() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
-    unseen = executor is None and progress is None and checkpoint is None
-    # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own. It
-    # runs in the caller's thread, where an interrupt arrives at once.
-    if unseen and (dwindling or state.shape[1] <= 2 * here * block):
-        return _whole(function, checks.model(osc), state, {**options, "threads": here})
-    from .sweep.families import spread  # executors, progress and checkpoints: no figure of the paper asks for them
+    if executor is None and progress is None and checkpoint is None:
+        # The integrators have threads of their own: pieces long enough to keep them busy, and a family that dwindles in
+        # one. It all runs in the caller's thread, where an interrupt arrives at once.
+        piece = state.shape[1] if dwindling else 2 * here * block
+        return _here(function, checks.model(osc).columns(), state, {**options, "threads": here}, piece)
+    from .sweep.families import spread  # no figure of the paper asks for executors, progress or checkpoints
 
     inside = here if executor is not None and threads is not None else 1
     return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint)
@@ -86,9 +86,12 @@ def by_exponent(columns):
     return np.argsort(columns[1], kind="stable")
 
 
-def _whole(function, osc, state, options):
-    order = by_exponent(osc.columns())
-    rows = function(osc.members(order), np.ascontiguousarray(state[:, order]), **options)
-    result = np.empty_like(rows)
-    result[..., order] = rows
+def _here(function, columns, state, options, piece):
+    order, result = by_exponent(columns), None
+    for start in range(0, order.size, piece):
+        members = order[start : start + piece]
+        rows = function(Duffing(*columns[:, members]), np.ascontiguousarray(state[:, members]), **options)
+        if result is None:
+            result = np.empty((*rows.shape[:-1], order.size), rows.dtype)
+        result[..., members] = rows
     return result

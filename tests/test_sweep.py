@@ -96,7 +96,7 @@ def test_members_of_a_block_have_one_exponent_where_that_is_possible():
     assert sorted(map(sorted, exponents)) == [[0.5], [0.5], [1.0], [2.0]]
 
 
-def test_a_small_family_is_left_whole_to_the_integrator_and_its_threads():
+def test_a_family_is_given_to_the_integrator_and_its_threads_in_pieces_of_two_blocks_a_thread():
     calls = []
 
     def note(osc, state, threads):
@@ -107,7 +107,7 @@ def test_a_small_family_is_left_whole_to_the_integrator_and_its_threads():
     assert calls == [(40, 3)]
     calls.clear()
     over_blocks(note, PLANE, starts(PLANE), {"threads": 3}, block=6)
-    assert sorted(calls) == [(4, 1), *[(6, 1)] * 6]
+    assert calls == [(36, 3), (4, 3)]
 
 
 @pytest.mark.parametrize(("given", "inside"), [({}, 1), ({"threads": 2}, 2)])
