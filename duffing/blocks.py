@@ -9,7 +9,7 @@ import os
 import numpy as np
 
 from . import checks
-from .flow import METHODS
+from .flow import METHODS, POLICIES
 from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better
@@ -45,8 +45,9 @@ def block_for(periods, method="auto", steps_per_period=500, **_):
 
 
 def over_blocks(
-    function, osc, state, options, *, block=BLOCK, dwindling=False, executor=None, progress=None, checkpoint=None
-):
+    function, osc, state, options, *, block=BLOCK, dwindling=False, executor=None, progress=None, checkpoint=None,
+    on_failure="raise", rows=None,
+):  # the problem, then how it is run  # fmt: skip
     """function(osc, state, threads=..., **options) over a family of N members, block by block.
 
     function : returns an array whose last axis is the members' (as many as it is given, whatever their number)
@@ -59,6 +60,7 @@ def over_blocks(
         without arguments that makes one; None is threads here
     progress : True, a bar where somebody watches; or called as progress(done, total) with numbers of members
     checkpoint : a folder for finished tasks, from which the same call goes on where an earlier one ended
+    on_failure : "raise", or "nan": see `answers`; then rows is the shape of a member's result
 
     Returns the array over all members, the same bit for bit whatever the block, executor and checkpoint. Memory beyond
     it and the family is that of the tasks under way, at most `workers.IN_FLIGHT`.
@@ -70,15 +72,17 @@ def over_blocks(
     threads = options.pop("threads", None)
     here = os.cpu_count() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
-    if executor is None and progress is None and checkpoint is None:
+    lenient = checks.choice("on_failure", on_failure, POLICIES) == "nan"
+    if executor is None and progress is None and checkpoint is None and not lenient:
         # The integrators have threads of their own: pieces long enough to keep them busy, and a family that dwindles in
         # one. It all runs in the caller's thread, where an interrupt arrives at once.
         piece = state.shape[1] if dwindling else 2 * here * block
         return _here(function, checks.model(osc).columns(), state, {**options, "threads": here}, piece)
-    from .sweep.families import spread  # no figure of the paper asks for executors, progress or checkpoints
+    from .sweep.families import spread  # no figure of the paper asks for what it can do
 
     inside = here if executor is not None and threads is not None else 1
-    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint)
+    rows = rows if lenient else None
+    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint, rows)
 
 
 def by_exponent(columns):

@@ -6,6 +6,7 @@ from . import checks
 from .integrators import rk4
 
 METHODS = ("auto", "rk4", "friction")
+POLICIES = ("raise", "nan")  # where a member of a family has no answer
 RK4_OPTIONS = ("steps_per_period", "threads")
 FRICTION_OPTIONS = ("rtol", "atol", "max_steps", "switch", "threads")
 
@@ -35,15 +36,27 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
     return integrator.integrate(osc, state, t, tangents=tangents, **options)
 
 
-def trajectory(osc, state, t, method="auto", **options):
+def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
     """States at the increasing times t: array (2, len(t), *family) of x and v; the state given is the one at t[0].
 
-    state : (2,) for all members or (2, *family); method, options, errors : as for `integrate`.
+    state : (2,) for all members or (2, *family)
+    on_failure : "raise", or "nan": members that diverge or do not converge are NaN, and one warning says so
+    method, options, errors : as for `integrate`
     """
     checks.model(osc)
     t = checks.times(t)
-    orbit = integrate(osc, checks.state(state, osc.shape), t, method=method, **options)
-    return orbit.states.reshape(2, t.size, *osc.shape)
+    state = checks.state(state, osc.shape)
+
+    def states(members=slice(None)):
+        return integrate(osc.members(members), state[:, members], t, method=method, **options).states
+
+    if checks.choice("on_failure", on_failure, POLICIES) == "raise":
+        found = states()
+    else:
+        from .sweep.failures import answers  # when it is asked for
+
+        found = answers(states, osc, (2, t.size))
+    return found.reshape(2, t.size, *osc.shape)
 
 
 def stroboscopic_times(osc, periods, transient=0, phase=0.0):
