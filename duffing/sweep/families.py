@@ -51,7 +51,7 @@ def spread(
         missing = [s for s in family.starts if store is None or not family.restore(s, store, report)]
         source = partial(ThreadPoolExecutor, min(threads, len(family.starts))) if executor is None else executor
         try:
-            with closing(completed(source, _run, arguments, missing, 0.0 if store is None else GRACE)) as results:
+            with closing(completed(source, run_task, arguments, missing, 0.0 if store is None else GRACE)) as results:
                 for start, array in results:
                     if store is not None:
                         store.keep(store.key(*family.part(start)), array)
@@ -96,7 +96,7 @@ class _Family:
         report(self.done)
 
 
-def _run(columns, state, function, options, block, stop, rows=None):
+def run_task(columns, state, function, options, block, stop, rows=None):
     """What a worker does: one block of its task after the other. What it returns once stopped nobody takes."""
     results = []
     for start in range(0, state.shape[1], block):
