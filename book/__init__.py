@@ -1,0 +1,1 @@
+"""What the chapters compute, draw and judge; the package `duffing` knows nothing of it."""

@@ -1,0 +1,1 @@
+"""Pages that move: widgets in the reader's browser, without a server or a network."""
