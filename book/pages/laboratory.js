@@ -1,21 +1,18 @@
 // One solution of  x'' + alpha x'|x'|^(p-1) + delta x + gamma x^3 = mu cos(omega t)  and one tangent vector.
 //
 // The method is the package's, for a single trajectory forward in time: Dormand and Prince's pair of order 8 in
-// friction time (duffing: equations, dop853, step_control), Radau's method of order 9 in a creep (radau). Its
-// coefficients come from SciPy and the package as `table` (laboratory.py), so no digit of them stands here.
+// friction time (equations, dop853, step_control there), Radau's of order 9 in a creep (laboratory_creep.js). The
+// coefficients come from SciPy and the package as `table` (laboratory.py): no digit of them stands here.
 //
 //     v = sign(w) |w|^m,    dt/ds = phi = m |w|^(m-1),    m = n / p,    ds = dsigma / (m + phi)
 //     dx/ds = phi v,        dw/ds = F(x, t) - alpha w^n,  F = -delta x - gamma x^3 + mu cos(omega t)
 //     dxi/ds = phi eta,     deta/ds = phi F_x xi - alpha n |w|^(n-1) eta
-//
-// Why no WebAssembly of the compiled kernels: they follow eight lanes, two tangent vectors, both directions and events.
-// One trajectory needs a third of it, and no tool chain that links for a browser.
 "use strict";
 
 function duffingIntegrator(table) {
   const T = 0, X = 1, W = 2, XI = 3, ETA = 4, SIZE = 5; // rows of a state: time within the period, x, w, tangent
   const LAST = table.explicit.length; // stages of an explicit step; its last row leads to the new point
-  const STAGES = table.implicit.length;
+  const creepStep = duffingCreep(table);
   const SWITCH = 0.6, LEAVE = 1 / 3, SLOW = 0.3, FRESH = 0.7, SMOOTHNESS = 8, ALONG = 0.01; // as in the package
   const MOST_STEPS = 100000, ESCAPED = 1e30;
 
@@ -195,14 +192,14 @@ function duffingIntegrator(table) {
     creepStep(end) {
       const Y = this.dampingForce(), left = end - this.state[T], resting = this.restsNow();
       const h = Math.min(this.creep, left, this.duration / 16); // no passage of F through zero is overlooked
-      let { error, Y: reached, passages } = this.radau(Y, h);
+      let { error, state, Y: reached, passages } = creepStep(this, this.state, Y, h);
       this.steps += 1;
       // A turn, or a passage in finite friction time: for explicit steps to resolve.
       if (!(resting && this.p > 0.5) && (passages < 0 || (passages > 0 && this.p > 0.5))) error = Infinity;
       const accepted = error <= 1, factor = error > 0 ? Math.min(4, 0.9 * error ** (-1 / 6)) : 4;
       if (accepted) {
-        this.next[W] = Math.sign(reached) * Math.abs(reached) ** (1 / this.n);
-        this.state.set(this.next);
+        this.state.set(state);
+        this.state[W] = Math.sign(reached) * Math.abs(reached) ** (1 / this.n);
         this.normalise();
         this.creep = factor < 1 ? h * factor : Math.max(this.creep, h * factor); // h may have been cut
         if (h === left) this.state[T] = end;
@@ -216,83 +213,9 @@ function duffingIntegrator(table) {
       }
       return accepted;
     }
-
-    // One step of h in time with Y = sign(v) |v|^p as unknown at the stages; `next` = the state there, but for w.
-    //     x(t) = x0 + integral of v(Y) dt,    v(Y(t)) = v(Y0) + integral of (F - alpha Y) dt
-    radau(Y0, h) {
-      const r = 1 / this.p, A = table.implicit, [t0, x0] = this.state, failed = { error: Infinity, Y: Y0, passages: 0 };
-      const Y = [Y0], v = [], phi = [], x = [x0], F = [this.force(x0, t0)], spring = [];
-      const range = Array.from({ length: STAGES }, (_, i) => i);
-      const sum = (term) => range.reduce((total, j) => total + term(j), 0);
-      const stages = () => {
-        Y.forEach((value, i) => {
-          phi[i] = r * Math.abs(value) ** (r - 1);
-          v[i] = phi[i] * value / r;
-        });
-        for (const i of range) {
-          x[i + 1] = x0 + h * sum((j) => A[i][j] * v[j + 1]);
-          F[i + 1] = this.force(x[i + 1], t0 + table.nodes[i] * h);
-          spring[i + 1] = this.stiffness(x[i + 1]);
-        }
-      };
-      const v0 = Math.abs(Y0) ** r * Math.sign(Y0);
-      for (const i of range) {
-        const c = table.nodes[i] * h;
-        Y[i + 1] = Y0 + (this.force(x0 + c * v0, t0 + c) - F[0]) / this.alpha;
-      }
-      let J, converged = false;
-      for (let iteration = 0; iteration < 30 && !converged; iteration++) {
-        stages();
-        J = range.map((i) => range.map((j) => (i === j ? phi[i + 1] : 0) + h * this.alpha * A[i][j]
-          - h * h * phi[j + 1] * sum((k) => A[i][k] * spring[k + 1] * A[k][j])));
-        const change = solve(J, range.map((i) => v[0] - v[i + 1] + h * sum((j) => A[i][j] * (F[j + 1] - this.alpha * Y[j + 1]))));
-        const largest = Math.max(...Y.slice(1).map(Math.abs)), move = Math.max(...change.map(Math.abs));
-        change.forEach((value, i) => { Y[i + 1] += value; });
-        converged = move <= 1e-10 * largest;
-      }
-      if (!converged) return failed;
-      stages();
-      const xi = this.state[XI], end = A[STAGES - 1];
-      const tangent = solve(J, range.map((i) => this.state[ETA] + h * xi * sum((j) => A[i][j] * spring[j + 1])));
-      this.next.set([t0 + h, x[STAGES], 0, xi + h * sum((j) => end[j] * phi[j + 1] * tangent[j]), phi[STAGES] * tangent[STAGES - 1]]);
-      let passages = signChanges(Y);
-      const slow = this.p < 0.5 ? SLOW : 1;
-      if (passages > 0 && (passages !== signChanges(F) || Math.abs(F[0] - this.alpha * Y0) > slow * Math.abs(F[0]))) passages = -1;
-      const estimate = (term) => h * table.difference.reduce((total, weight, i) => total + weight * term(i), 0);
-      const damped = phi[STAGES] / (phi[STAGES] + 0.1 * h * this.alpha); // by the relaxation
-      const ev = estimate((i) => F[i] - this.alpha * Y[i]) * damped;
-      const error = Math.hypot(estimate((i) => v[i]), ev) / (this.atol + this.rtol * Math.hypot(x0, v[0]));
-      return { error, Y: Y[STAGES], passages };
-    }
   }
 
   const slack = (target) => 4e-16 * Math.max(1, Math.abs(target));
-
-  // Sign changes over a step of the polynomial with these values at its start and its stages.
-  function signChanges(values) {
-    const between = table.fine.map((row) => row.reduce((total, weight, i) => total + weight * values[i], 0));
-    const along = [values[0], ...between, values[STAGES]];
-    return along.filter((value, i) => i > 0 && value * along[i - 1] < 0).length;
-  }
-
-  // The solution of J y = b by elimination with exchange of rows; J is kept.
-  function solve(J, b) {
-    const rows = J.map((row, i) => [...row, b[i]]), size = b.length;
-    for (let k = 0; k < size; k++) {
-      let best = k;
-      for (let i = k + 1; i < size; i++) if (Math.abs(rows[i][k]) > Math.abs(rows[best][k])) best = i;
-      [rows[k], rows[best]] = [rows[best], rows[k]];
-      for (let i = k + 1; i < size; i++) {
-        const factor = rows[i][k] / rows[k][k];
-        for (let j = k; j <= size; j++) rows[i][j] -= factor * rows[k][j];
-      }
-    }
-    for (let k = size - 1; k >= 0; k--) {
-      for (let j = k + 1; j < size; j++) rows[k][size] -= rows[k][j] * rows[j][size];
-      rows[k][size] /= rows[k][k];
-    }
-    return rows.map((row) => row[size]);
-  }
 
   return Motion;
 }

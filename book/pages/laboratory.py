@@ -17,7 +17,7 @@ from duffing.kernels import creep as radau
 
 LEAST_P, MOST_P = 0.02, 10.0
 SCAN = tuple(np.round(np.arange(0.01, 0.401, 0.01), 2).tolist())  # forcing amplitudes of a scan, as Fig. 4 shows them
-_SCRIPTS = ("laboratory.js", "laboratory_panels.js", "laboratory_view.js")
+_PARTS = ("_creep", "", "_values", "_run", "_panel", "_pictures", "_view")  # the scripts, in the order they are needed
 
 
 def coefficients():
@@ -67,5 +67,5 @@ def laboratory():
     # Nothing in the data may end the script that holds it.
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     page = (here / "laboratory.html").read_text(encoding="utf-8").replace("PERIODS", str(paper.PERIODS))
-    scripts = "\n".join((here / name).read_text(encoding="utf-8") for name in _SCRIPTS)
+    scripts = "\n".join((here / f"laboratory{part}.js").read_text(encoding="utf-8") for part in _PARTS)
     return HTML(page.replace("DATA", text).replace("SCRIPTS", scripts))

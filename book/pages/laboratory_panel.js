@@ -87,13 +87,9 @@ function laboratoryPanel(canvas, xlabel, ylabel) {
       });
     },
 
-    // The lines x = value and y = value, dashed.
-    rules(xs, ys) {
+    // The lines y = value, dashed.
+    rules(ys) {
       line(colour.quiet, 1, [5, 4], () => {
-        for (const value of xs) {
-          pen.moveTo(x(value), margin.top);
-          pen.lineTo(x(value), height - margin.bottom);
-        }
         for (const value of ys) {
           pen.moveTo(margin.left, y(value));
           pen.lineTo(width - margin.right, y(value));
