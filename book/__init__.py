@@ -1,1 +1,1 @@
-"""What the chapters compute, draw and judge; the package `duffing` knows nothing of it."""
+"""What the chapters compute (`studies`), draw (`figures`), judge (`claims`) and show (`pages`), one name a chapter."""

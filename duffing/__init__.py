@@ -3,11 +3,11 @@
 from .errors import ConvergenceError, DivergedError, DuffingError, LostWorkerError, NoSaddleOrbitError
 from .flow import trajectory
 from .lyapunov import LyapunovSpectrum, lyapunov_spectrum, two_trajectory_exponent
+from .manifolds.saddle import SaddleOrbit, saddle_orbit
+from .manifolds.tangency import homoclinic_tangency, splitting
 from .melnikov import critical_amplitude, homoclinic_orbit, melnikov_function
 from .oscillator import Duffing
 from .poincare import poincare_section
-from .saddle import SaddleOrbit, saddle_orbit
-from .tangency import homoclinic_tangency, splitting
 
 __all__ = [
     "ConvergenceError",

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from . import checks, friction, rk4
+from . import checks
+from .integrators import rk4
+from .integrators.friction_time import adaptive as friction
 
 METHODS = ("auto", "rk4", "friction")
 RK4_OPTIONS = ("steps_per_period", "threads")

@@ -6,8 +6,8 @@ import numpy as np
 
 from . import checks
 from .flow import integrate, stroboscopic_times
-from .kernels.companion import two_trajectory_growth
-from .sweep import block_for, over_blocks
+from .integrators.companion import two_trajectory_growth
+from .sweep.families import block_for, over_blocks
 
 
 class LyapunovSpectrum(NamedTuple):
@@ -29,7 +29,7 @@ def lyapunov_spectrum(
     periods, transient : forcing periods averaged over and, before them, thrown away
     k : 1 (the largest alone, cheaper) or 2
     method, options : as for `duffing.flow.integrate`; method="rk4" with transient=0 is the paper's algorithm
-    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`: where it runs, whether it shows how far it is,
+    executor, progress, checkpoint : as for `over_blocks`: where it runs, whether it shows how far it is,
         and the folder from which it can be resumed
     history : False leaves out the running estimates, which for a large family need the most memory
 

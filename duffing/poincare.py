@@ -4,7 +4,7 @@ import numpy as np
 
 from . import checks
 from .flow import integrate, stroboscopic_times
-from .sweep import block_for, over_blocks
+from .sweep.families import block_for, over_blocks
 
 
 def poincare_section(
@@ -15,7 +15,7 @@ def poincare_section(
     periods, transient : numbers of points kept and, before them, thrown away; the point of number k = 1, 2, ... of
         all of them is the state at t = (phase + 2 pi k) / omega, so that with phase = 0 it is the k-th iterate
     phase : forcing phase omega t (radian) in [0, 2 pi)
-    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`
+    executor, progress, checkpoint : as for `over_blocks`
     options, errors : method and options as for `duffing.flow.integrate`
     """
     state = checks.state(state, checks.model(osc).shape)

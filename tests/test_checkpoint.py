@@ -15,10 +15,11 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, diverges_at, marked, marks, starts
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
-from duffing.parallel import checkpoint
-from duffing.parallel.checkpoint import Checkpoint
-from duffing.sweep import over_blocks
+from duffing import DivergedError, Duffing, lyapunov_spectrum
+from duffing.sweep import checkpoint
+from duffing.sweep import families as sweep
+from duffing.sweep.checkpoint import Checkpoint
+from duffing.sweep.families import over_blocks
 
 BLOCKS = 10  # of four members
 
@@ -197,7 +198,7 @@ def test_an_edit_anywhere_in_the_package_or_another_version_of_what_it_needs_reu
     monkeypatch.setattr(checkpoint, "PACKAGE", copy)
     checkpoint.surroundings.cache_clear()
     assert checkpoint.surroundings() == known[0]
-    module = copy / "kernels" / "powers.py"
+    module = copy / "integrators" / "powers.py"
     module.write_text(module.read_text() + "\n")
     assert_changed()
     module.rename(module.with_name("potencies.py"))
@@ -240,7 +241,8 @@ def test_two_runs_at_once_on_one_folder_agree_and_leave_it_sound(tmp_path):
 SCRIPT = """
 import sys
 import numpy as np
-from duffing import Duffing, lyapunov_spectrum, sweep
+from duffing.sweep import families as sweep
+from duffing import Duffing, lyapunov_spectrum
 sweep.BLOCK_SECONDS = 0.02
 osc = Duffing(p=0.1, mu=np.linspace(0.1, 0.3, 400))
 spectrum = lyapunov_spectrum(osc, periods=60, method="rk4", checkpoint=sys.argv[1])

@@ -12,9 +12,10 @@ import pytest
 from dask.distributed import Client, LocalCluster
 from sweep_cases import PLANE, diverges_at, kills_its_worker, marked, marks, starts
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
+from duffing import DivergedError, Duffing, lyapunov_spectrum
 from duffing.errors import LostWorkerError
-from duffing.sweep import over_blocks
+from duffing.sweep import families as sweep
+from duffing.sweep.families import over_blocks
 
 
 @pytest.fixture(scope="module")

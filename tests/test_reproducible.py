@@ -7,7 +7,7 @@ import nbformat.v4 as v4
 import pytest
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / "scripts"))
+sys.path.append(str(ROOT / "tools"))
 
 import reproducible  # noqa: E402 - its folder is put on the path above
 

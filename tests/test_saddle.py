@@ -7,9 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from duffing import Duffing, NoSaddleOrbitError, critical_amplitude
-from duffing.saddle import saddle_orbit, unit_members
-from duffing.shooting import central_orbit, linear_response
-from duffing.sticking import saddle_friction_time, sticking_amplitude
+from duffing.manifolds.saddle import saddle_orbit, unit_members
+from duffing.manifolds.shooting import central_orbit, linear_response
+from duffing.manifolds.sticking import saddle_friction_time, sticking_amplitude
 
 CASES = [
     Duffing(alpha=0.1, p=1.0, mu=0.08),

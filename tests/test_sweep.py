@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, context, diverges_at, marked, marks, starts
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
+from duffing import DivergedError, Duffing, lyapunov_spectrum
 from duffing.lyapunov import _average, _spectrum_rows
-from duffing.sweep import block_of, over_blocks
+from duffing.sweep import families as sweep
+from duffing.sweep.families import block_of, over_blocks
 
 FAMILY = Duffing(p=np.array([[0.5], [1.0]]), mu=np.linspace(0.1, 0.3, 21))
 
@@ -123,7 +124,7 @@ def test_a_block_of_an_executor_takes_one_thread_unless_more_are_asked_for(given
 
 
 def test_only_a_bounded_number_of_tasks_is_under_way(monkeypatch):
-    monkeypatch.setattr("duffing.parallel.workers.IN_FLIGHT", 5)
+    monkeypatch.setattr("duffing.sweep.workers.IN_FLIGHT", 5)
     under_way, most = [], []
 
     class Watched(ThreadPoolExecutor):

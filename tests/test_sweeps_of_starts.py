@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 from sweep_cases import context
 
-from duffing import Duffing, poincare_section, sweep
-from duffing.attraction.attractors import find_attractors, settle
-from duffing.attraction.basins import basins
-from duffing.attraction.fates import fate
-from duffing.attraction.lifetimes import lifetimes
-from duffing.book import basin_study, transient_study
+from book.studies import basins as basin_study
+from book.studies import transients as transient_study
+from duffing import Duffing, poincare_section
+from duffing.basins.attractors import find_attractors, settle
+from duffing.basins.basins import basins
+from duffing.basins.fates import fate
 from duffing.orbits.diagram import bifurcation_diagram
-from duffing.parallel.checkpoint import Checkpoint
+from duffing.sweep import families as sweep
+from duffing.sweep.checkpoint import Checkpoint
+from duffing.transients.lifetimes import lifetimes
 
 LOOSE = {"rtol": 1e-6, "atol": 1e-8}
 RK4 = {"method": "rk4", "steps_per_period": 100}

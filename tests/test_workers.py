@@ -10,8 +10,8 @@ from sweep_cases import PLANE, context, kills_its_worker, marked, marks, starts
 
 from duffing import Duffing
 from duffing.errors import LostWorkerError
-from duffing.parallel import workers
-from duffing.sweep import over_blocks
+from duffing.sweep import workers
+from duffing.sweep.families import over_blocks
 
 
 def run(executor, mu, **more):

@@ -1,1 +1,1 @@
-"""Pages that move: widgets in the reader's browser, without a server or a network."""
+"""What pages show besides figures: tables and interactive views."""

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.integrate import DOP853
 
 from duffing import paper
-from duffing.kernels import creep as radau
+from duffing.integrators.friction_time import radau
 
 LEAST_P, MOST_P = 0.02, 10.0
 SCAN = tuple(np.round(np.arange(0.01, 0.401, 0.01), 2).tolist())  # forcing amplitudes of a scan, as Fig. 4 shows them

@@ -37,7 +37,7 @@ def bifurcation_diagram(
     mu : (n,) increasing
     starts : (2, m) x and v; the first of them also begins both sweeps
     transient, kept : forcing periods thrown away and, after them, kept, at every mu
-    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`, which carries the fresh starts; the sweeps in
+    executor, progress, checkpoint : as for `over_blocks`, which carries the fresh starts; the sweeps in
         mu go on from one forcing to the next and cannot be cut
     options, errors : method and options as for `duffing.flow.integrate`
     """

@@ -18,8 +18,8 @@ import numpy as np
 from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate
+from ..manifolds.saddle import names
 from ..oscillator import Duffing
-from ..saddle import names
 
 TOLERANCE = {"rtol": 1e-10, "atol": 1e-12}
 _STEPS = 25
