@@ -4,7 +4,8 @@
 (function () {
   const find = (name) => document.getElementById(`laboratory-${name}`);
   const root = document.getElementById("laboratory"), given = JSON.parse(find("data").textContent);
-  const Run = laboratoryRun(duffingIntegrator(given.table)), pictures = laboratoryPictures(find, given.scan, given.threshold);
+  const Motion = duffingIntegrator(given.table), Run = laboratoryRun(Motion);
+  const pictures = laboratoryPictures(find, given.scan, given.threshold);
   const { FIELDS, checked, fragment, linked } = laboratoryValues(given.least_p, given.most_p);
   const SHOWN = Object.keys(FIELDS).filter((name) => !FIELDS[name].linked);
   const BUDGET = 8; // milliseconds of a frame for the integration: half of it at 60 frames a second
@@ -29,7 +30,7 @@
     [wanted, failed] = [to > 0, ""];
     say("");
     wake();
-    redraw();
+    draw(true);
   }
 
   function start(changes, to) {
@@ -108,8 +109,9 @@
     find("says").classList.toggle("wrong", wrong);
   }
 
-  function draw() {
+  function draw(anew = false) {
     drawnAt = performance.now();
+    if (anew) pictures.forget();
     pictures.draw(run, values, exponents, wanted);
     const { motion, lambda } = run, number = (value, digits) => value.toFixed(digits).replace("-", "−");
     find("periods").textContent = run.periods;
@@ -118,11 +120,6 @@
     find("v-now").textContent = number(motion.v, 4);
     find("exponent").textContent = lambda === undefined ? "–" : number(lambda, 4);
     find("link").href = fragment({ ...values, periods: run.periods });
-  }
-
-  function redraw() {
-    pictures.forget();
-    draw();
   }
 
   // ---- controls
@@ -243,9 +240,9 @@
   document.addEventListener("visibilitychange", wake);
   addEventListener("hashchange", () => location.hash.includes("=") && load());
   load();
-  new ResizeObserver(redraw).observe(root);
-  new MutationObserver(redraw).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+  new ResizeObserver(() => draw(true)).observe(root);
+  new MutationObserver(() => draw(true)).observe(document.documentElement, { attributeFilter: ["data-theme"] });
 
   // For tests, and for whoever looks at it from the console.
-  window.laboratory = { frames, Motion: duffingIntegrator(given.table), get run() { return run; }, get goes() { return goes(); } };
+  window.laboratory = { Motion, frames, get run() { return run; }, get exponents() { return exponents; }, get goes() { return goes(); } };
 })();
