@@ -74,9 +74,9 @@ function duffingIntegrator(table) {
 
     // One accepted step, ended at the time `end` of this period; returns the time reached.
     step(end) {
-      while (!(this.creep > 0 ? this.creepStep(end) : this.explicitStep(end))) {
-        if (this.steps > MOST_STEPS) throw new RangeError("more steps are needed than are allowed for one forcing period");
-      }
+      do {
+        if (this.steps >= MOST_STEPS) throw new RangeError("more steps are needed than are allowed for one forcing period");
+      } while (!(this.creep > 0 ? this.creepStep(end) : this.explicitStep(end)));
       if (!(Math.abs(this.x) < ESCAPED)) throw new RangeError("the solution leaves every bound");
       return this.state[T];
     }
