@@ -119,7 +119,6 @@
     find("x-now").textContent = number(motion.x, 4);
     find("v-now").textContent = number(motion.v, 4);
     find("exponent").textContent = lambda === undefined ? "–" : number(lambda, 4);
-    find("link").href = fragment({ ...values, periods: run.periods });
   }
 
   // ---- controls
@@ -197,9 +196,8 @@
     if (!failed) take({ x: run.motion.x, v: run.motion.v });
   });
   find("scan").addEventListener("click", () => take({}, given.periods, given.scan));
-  find("link").addEventListener("click", async (event) => {
-    event.preventDefault();
-    history.replaceState(null, "", find("link").href);
+  find("link").addEventListener("click", async () => {
+    history.replaceState(null, "", fragment({ ...values, periods: run.periods }));
     say("The address of this page now carries this state.");
     await navigator.clipboard?.writeText(location.href).then(() => say("The address of this page now carries this state, and is copied."), () => null);
   });
