@@ -140,6 +140,20 @@ def test_a_frame_of_one_trajectory_is_done_in_less_than_a_sixtieth_of_a_second(l
     assert lab.state["time"] - began > 3
 
 
+def test_the_page_answers_while_it_computes_as_fast_as_it_goes(laboratory):
+    lab = laboratory(p=0.1, mu=0.05, periods=2)
+    lab.field("speed").fill("8")
+    assert lab.page.locator("#laboratory-pace").inner_text() == "as fast as it goes"
+    lab.press("Run")
+    lab.visit.value("() => { laboratory.frames.length = 0; }")
+    began = lab.state["periods"]
+    lab.page.wait_for_timeout(2000)
+    assert lab.visit.value("laboratory.frames.length") > 20
+    assert lab.state["periods"] - began > 20
+    lab.press("Pause")
+    assert lab.says == "Paused."
+
+
 def test_it_pauses_out_of_sight_and_goes_on_in_sight(laboratory):
     lab = laboratory(periods=2)
     lab.press("Run")
