@@ -224,7 +224,7 @@
 
   function load() {
     const [{ values: first, periods: most }] = given.presets, carried = location.hash.includes("=");
-    const { found, wrong } = carried ? linked(location.hash, { ...first, periods: 0 }) : { found: { ...first, periods: most }, wrong: "" };
+    const { found, wrong } = carried ? linked(location.hash, { ...first, transient: 0, periods: 0 }) : { found: { ...first, periods: most }, wrong: "" };
     const { periods, ...rest } = found;
     begin(rest, periods);
     if (wrong) fail(`The link is not taken as it stands. ${wrong}.`);

@@ -214,6 +214,13 @@ def test_a_link_carries_the_state(laboratory, opened):
     np.testing.assert_allclose([before["x"], before["v"]], ends, atol=1e-8)
 
 
+def test_a_link_that_names_a_few_values_leaves_the_others_at_the_papers_and_nothing_out(laboratory):
+    lab = laboratory(mu=0.2, periods=4)
+    names = ("alpha", "p", "mu", "omega", "delta", "gamma", "x", "v", "transient")
+    assert [float(lab.field(name).input_value()) for name in names] == [0.1, 0.1, 0.2, 1, -1, 1, *paper.START, 0]
+    assert lab.state["points"] == lab.state["periods"] == 4
+
+
 def test_the_initial_condition_is_set_by_a_click_and_by_keys(laboratory):
     lab = laboratory(periods=1)
     for name in ("phase", "strobe"):
