@@ -5,8 +5,6 @@ in the chapters is what is plotted. All quantities are dimensionless. Every func
 delta < 0 < gamma, and DivergedError where the value leaves the range of doubles.
 """
 
-from dataclasses import replace
-
 import mpmath
 import numpy as np
 
@@ -27,10 +25,14 @@ def homoclinic_orbit(osc, t, side=1):
     checks.choice("side", side, (1, -1))
     t = checks.parameter("t", t)
     lib = library(osc.delta, osc.gamma, t)
+    x = side * lib.sqrt(-2 * osc.delta / osc.gamma) * lib.sech(lib.sqrt(-osc.delta) * t)
+    return _over_family(osc, x, t), _over_family(osc, side * loop_velocity(osc, t, lib), t)
+
+
+def loop_velocity(osc, t, lib):
+    """v* of Eq. 8 on the right loop by the functions of `lib`, nothing checked: for those who need it many times."""
     u = lib.sqrt(-osc.delta) * t
-    x = side * lib.sqrt(-2 * osc.delta / osc.gamma) * lib.sech(u)
-    v = side * lib.sqrt(2 / osc.gamma) * osc.delta * lib.tanh(u) * lib.sech(u)
-    return _over_family(osc, x, t), _over_family(osc, v, t)
+    return lib.sqrt(2 / osc.gamma) * osc.delta * lib.tanh(u) * lib.sech(u)
 
 
 @within_range
@@ -86,26 +88,6 @@ def least_critical_frequency(osc):
     checks.double_well(osc)
     u = float(mpmath.findroot(lambda u: u * mpmath.tanh(u) - 1, 1.2))
     return np.broadcast_to(2 * np.sqrt(-osc.delta) * u / np.pi, osc.shape)
-
-
-def melnikov_quadrature(osc, t0, digits=50):
-    """M(t0) of Eq. 9 from its definition, by mpmath quadrature: nothing of the closed forms above is used.
-
-    For one oscillator (no family). Tanh-sinh nodes crowd at t = 0, where |v*|^(p+1) has its kink, so the kink costs
-    no digits; each half line is cut where the orbit has decayed below the working precision.
-    """
-    checks.double_well(checks.single(osc))
-    checks.number("t0", t0)
-    checks.count("digits", digits)
-    with mpmath.workdps(digits + 15):
-        exact = replace(osc, alpha=mpmath.mpf(osc.alpha))
-        end = (digits + 10) * mpmath.log(10) / mpmath.sqrt(-exact.delta)
-
-        def power(t):
-            v = homoclinic_orbit(exact, t)[1]
-            return v * (exact.mu * mpmath.cos(exact.omega * (t + t0)) - exact.damping(v))
-
-        return mpmath.quad(power, [-end, 0, end])
 
 
 def _over_family(osc, value, t=0.0):

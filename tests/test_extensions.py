@@ -141,6 +141,17 @@ def test_a_mark_beside_each_equation_leads_to_its_tests_and_says_how_they_ended(
     assert "Nobody cites me – ○ skipped" in listed
     assert "2 passed, 1 failed, 1 skipped, with Python" in listed
     assert "assert 3 == 4" in listed and "not today" not in listed, "the source of the cited tests, and of those alone"
+    assert "checked by" not in html["index"].lower() and "test_one_is_one" not in html["index"], "marks say it"
+
+
+def test_a_test_cited_within_prose_becomes_a_mark_there(book):
+    prose = "It holds (`tests/test_a.py::test_one_is_one`), and twelve more words of prose stand here "
+    prose += "beside it, which are checked by nobody."
+    write(book, {"index.md": INDEX + f"\n    {prose}\n"})
+    html, complaints = build(book)
+    assert complaints == ""
+    assert re.search(r"It holds \(<a [^>]*><span class=\"test-mark not-run\">○ test not run", html["index"])
+    assert "twelve more words of prose" in html["index"] and "test_one_is_one" not in html["index"]
 
 
 def test_without_a_run_of_the_tests_on_this_very_code_a_mark_says_so(book):
@@ -289,3 +300,33 @@ def test_the_pages_on_the_package_hold_every_public_name_and_every_module(tmp_pa
     for package in ("duffing", "book"):
         for name in api_page.modules_of(package):
             assert html[f"api/{name.rpartition('.')[0]}"].count(f'id="module-{name}"') == 1, name
+
+
+NUMBERS = """
+    ---
+    file_format: mystnb
+    kernelspec: {name: python3, display_name: Python 3, language: python}
+    ---
+    # Page
+
+    ```{code-cell} python
+    from myst_nb import glue
+    glue("small", -1.36e-3, display=False)
+    ```
+
+    It is {glue:text}`small:.2e`, code stays `-1e-03`.
+
+    | a | b |
+    | :-- | :-- |
+    | -0.5 | `-0.5` |
+"""
+
+
+def test_glued_numbers_and_tables_are_typeset_and_code_is_not(tmp_path):
+    (tmp_path / "index.md").write_text(textwrap.dedent(NUMBERS).lstrip())
+    head = f"import sys\nsys.path[:0] = [{str(BOOK / 'book' / 'sphinx')!r}, {str(BOOK)!r}]\n"
+    (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "typeset_numbers"]\nhtml_theme = "basic"\n')
+    html, _ = build(tmp_path)
+    assert 'It is <span class="pasted-text">\u22121.36 \u00d7 10\u207b\u00b3</span>' in html["index"]
+    assert "<p>\u22120.5</p>" in html["index"]
+    assert html["index"].count("-1e-03") == html["index"].count(">-0.5<") == 1
