@@ -15,7 +15,7 @@ from numba.core.imputils import lower_builtin
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic
 
-from .vectors import DOUBLES, EIGHT
+from .vectors import DOUBLES, EIGHT, FIRST
 
 
 @intrinsic(prefer_literal=True)
@@ -71,7 +71,7 @@ def _number(index):
 
 @infer_global(operator.getitem)
 class _Get(AbstractTemplate):
-    metadata = {"target": "cpu"}  # asked before what numba has for any target
+    metadata = FIRST
 
     def generic(self, args, kws):
         view, index = args
@@ -82,7 +82,7 @@ class _Get(AbstractTemplate):
 
 @infer_global(operator.setitem)
 class _Set(AbstractTemplate):
-    metadata = {"target": "cpu"}
+    metadata = FIRST
 
     def generic(self, args, kws):
         view, index, _ = args
@@ -153,7 +153,7 @@ def views(parts, width):
 
 @intrinsic
 def apart(typingctx):
-    """Keep the function that calls this out of its callers, and short: called seldom, it is compiled once and quickly."""
+    """Keep the function that calls this out of its callers, and short: it is called seldom, and compiled once."""
 
     def codegen(context, builder, signature, arguments):
         for attribute in ("noinline", "optsize"):

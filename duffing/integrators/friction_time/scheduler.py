@@ -10,19 +10,28 @@ import math
 
 from numba import int64
 
-from ..compiled import compiled, inner
+from ..compiled import announced, compiled, inner
 from ..memory import apart, stack
 from .block import (
-    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, H, INTERVAL, LOG1, LOG2, M, MEMBER, MOVE, N, NEW,
-    NOW, OMEGA, OSC, OUTCOME, OWNER, P, PARAMETERS, PASSAGES, REJECTED, S, SHEAR, SIGN, SLOPES, START, STEP, STEPS, T,
-    TARGET, W, WIDTH, X, XI1, XI2, lanes,
+    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LOG1, LOG2, MEMBER, MOVE, NEW, NOW,
+    OMEGA, OSC, OUTCOME, OWNER, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, STEPS, TARGET,
+    WIDTH, XI1, XI2, H, M, N, P, S, T, W, X, lanes,
 )  # fmt: skip
 from .dop853 import step
 from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
 from .event_location import locate_event
 from .radau import at_rest, radau_step
 from .step_control import (
-    ARRIVES, COLLAPSES, CREEPS, DONE, GOING, NO_CROSSING, STUCK, TOO_MANY_STEPS, accept_steps, not_beyond,
+    ARRIVES,
+    COLLAPSES,
+    CREEPS,
+    DONE,
+    GOING,
+    NO_CROSSING,
+    STUCK,
+    TOO_MANY_STEPS,
+    accept_steps,
+    not_beyond,
 )  # fmt: skip
 from .tangent_frame import log_area, orthonormalise
 
@@ -70,6 +79,9 @@ def run_lanes(parameters, states, times, event, beyond, tangents, control, resul
         number = (used + 7) // 8
         step(block, number, tangents, kind)
         accept_steps(block, number, event, tangents, control, kind)
+
+
+announced(run_lanes, "the accurate integrator")
 
 
 @inner
@@ -124,7 +136,9 @@ def handle_event(block, l, times, event, beyond, tangents, control, results, sta
         orthonormalise(block, l, tangents, log_area(block, l, tangents))
         outcome = GOING
     elif outcome == CREEPS:
-        step[CREEP, l] = max(step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l])  # the first can underflow
+        step[CREEP, l] = max(
+            step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l]
+        )  # the first can underflow
         outcome = creep(block, l, event, beyond, tangents, control)
     while outcome != GOING:
         member, interval = int(owner[MEMBER, l]), int(owner[INTERVAL, l])
