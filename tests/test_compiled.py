@@ -1,5 +1,6 @@
 """The disk cache of compiled code: used again while the package is the same, never after an edit."""
 
+import io
 import shutil
 import subprocess
 import sys
@@ -9,7 +10,7 @@ import numba
 import pytest
 
 import duffing
-from duffing.integrators.compiled import compiled, fingerprint
+from duffing.integrators.compiled import announced, compiled, fingerprint
 
 PACKAGE = Path(duffing.__file__).parent
 RUN = """
@@ -65,3 +66,17 @@ def test_compiling_leaves_the_callers_settings_alone():
 
     assert double(2.0) == 4.0
     assert before == numba.config.CACHE_DIR
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_kernel_that_compiles_for_long_says_so_once_and_on_a_terminal_only(terminal, monkeypatch):
+    @compiled
+    def twice(x):
+        return 2 * x
+
+    stream = io.StringIO()
+    stream.isatty = lambda: terminal
+    monkeypatch.setattr(sys, "stderr", stream)
+    announced(twice, "a function of the tests")
+    assert [twice(2.0), twice(3.0)] == [4.0, 6.0]
+    assert stream.getvalue().count("compiling a function of the tests") == terminal

@@ -8,9 +8,11 @@ hold compiled code.
 import hashlib
 import os
 import shutil
+import sys
 from pathlib import Path
 
 import numba
+from numba.core import event
 
 PACKAGE = Path(__file__).parents[1]
 
@@ -51,6 +53,26 @@ def compiled(function=None, **options):
         return numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
     finally:
         numba.config.CACHE_DIR = before
+
+
+class _Notice(event.Listener):
+    """Numba tells it of each compilation that the cache does not spare."""
+
+    def __init__(self, kernel, what):
+        self.kernel, self.what = kernel, what
+
+    def on_start(self, event):
+        if event.data["dispatcher"] is self.kernel and sys.stderr is not None and sys.stderr.isatty():
+            print(f"duffing: compiling {self.what}, once on this machine; this takes a while", file=sys.stderr)
+
+    def on_end(self, event):
+        """Nothing to say."""
+
+
+def announced(kernel, what):
+    """The kernel, which says so on a terminal's standard error when it is being compiled, for that takes seconds."""
+    event.register("numba:compile", _Notice(kernel, what))
+    return kernel
 
 
 def inlined(function):

@@ -16,9 +16,9 @@ from .. import checks
 from ..errors import DivergedError
 from .compiled import compiled, inlined
 from .forcing import map_chunks
+from .memory import stack, views, widest_vectors
 from .powers import evaluate
 from .solution import Solution
-from .memory import stack, views, widest_vectors
 from .vectors import EIGHT, fma, root, where
 
 # Trajectories of a block: its rows stay in the first-level cache.
@@ -26,7 +26,7 @@ LANES = 64
 # Steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval.
 BETWEEN = 50
 
-# A block in parts, each of some rows: the state with its tangents at the start of a step, where the slopes are asked for,
+# A block in parts, each of some rows: the state with its tangents at the start of a step, where slopes are asked for,
 # and the sum of slopes; the parameters and the step; the tangents as last made orthonormal, and how long they were.
 NOW, STAGE, SUM, OSC, FRAME, LENGTHS = range(6)
 PARTS = ((6,), (6,), (6,), (6,), (4,), (2,))
