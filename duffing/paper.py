@@ -107,6 +107,23 @@ STATEMENTS = (
 )
 
 
+class Pair(NamedTuple):
+    """A candidate for the missing alpha and omega: its letter, its values, and how it was chosen."""
+
+    letter: str
+    alpha: float
+    omega: float
+    chosen: str
+
+
+# The first is adopted throughout the book; `tests/test_missing_parameters.py` finds all of them again.
+LIKELY = (
+    Pair("A", 0.1, 1.0, "adopted: the likeliest pair with alpha a multiple of 0.01 and omega a multiple of 0.1"),
+    Pair("B", 0.15, 1.1875, "the likeliest pair of the plane in steps of 0.005 and 0.0125"),
+    Pair("C", 0.095, 1.2625, "the next likeliest pair of that plane that is no neighbour of B"),
+)
+
+
 class Claim(NamedTuple):
     """One statement of the paper: a key, the place where it stands, and what it says (short quotations in “ ”)."""
 

@@ -1,4 +1,4 @@
-"""Which (alpha, omega) the paper's statements leave, and its Figs. 3b to 6 for the likeliest: arrays in, a figure out."""
+"""Which (alpha, omega) the text leaves, and the paper's Figs. 3b to 6 for the likeliest: arrays in, a figure out."""
 
 import numpy as np
 
@@ -9,10 +9,10 @@ LEAST = -6.0  # decades of likelihood below the best that are told apart
 
 
 @styled
-def likelihood_maps(alpha, omega, exponent, kept, panels, likely):
-    """The plane of candidates. exponent (a, w): lambda_1 at mu = 0.27; kept (2, m): indices of those followed; panels:
-    dict title -> log10 of the likelihood (m,), relative to the best; likely: dict letter -> (alpha, omega), ringed."""
-    fig = PageFigure(figsize=(6.8, 2.6 + 2.3 * len(panels)))
+def likelihood_maps(alpha, omega, exponent, panels, likely):
+    """The plane of candidates. exponent (a, w): lambda_1 at mu = 0.27; panels: dict title -> log10 of the likelihood
+    (a, w), relative to the best, nan where there is none; likely: dict letter -> (alpha, omega), ringed."""
+    fig = PageFigure(figsize=(6.8, 2.5 + 2.3 * len(panels)))
     axes = fig.subplots(1 + len(panels), 1, sharex=True, sharey=True)
     half = [(axis[-1] - axis[0]) / (axis.size - 1) / 2 for axis in (omega, alpha)]
     extent = (omega[0] - half[0], omega[-1] + half[0], alpha[0] - half[1], alpha[-1] + half[1])
@@ -21,9 +21,7 @@ def likelihood_maps(alpha, omega, exponent, kept, panels, likely):
     axes[0].set_title(r"larger $\lambda_1$ of two runs at $\mu = 0.27$, $p = 0.1$", fontsize=10)
     fig.colorbar(image, ax=axes[0], extend="both", label=r"$\lambda_1$ (nats per unit time)")
     for panel, (title, logs) in zip(axes[1:], panels.items(), strict=True):
-        cells = np.full(exponent.shape, np.nan)
-        cells[tuple(kept)] = np.maximum(logs, LEAST)
-        image = panel.imshow(cells, cmap="viridis", vmin=LEAST, vmax=0, **shown)
+        image = panel.imshow(np.maximum(logs, LEAST), cmap="viridis_r", vmin=LEAST, vmax=0, **shown)
         panel.set_title(title, fontsize=10)
         fig.colorbar(image, ax=panel, extend="min", label=r"$\log_{10}$ of likelihood")
     for panel in axes:
@@ -38,7 +36,7 @@ def likelihood_maps(alpha, omega, exponent, kept, panels, likely):
 
 @styled
 def ensembles(pairs, chaotic, regular, printed):
-    """lambda_1 of nearby starts for each pair: pairs (labels); chaotic and regular (n, pairs), at mu = 0.27 and 0.25, in
+    """lambda_1 of nearby starts for each pair: pairs (labels); chaotic and regular (n, pairs), at 0.27 and 0.25, in
     nats; printed: dict unit -> (value at 0.27, value at 0.25), in nats."""
     fig = PageFigure(figsize=(6.8, 1.6 + 0.55 * len(pairs)))
     panels = fig.subplots(1, 2, sharey=True)
@@ -83,7 +81,7 @@ def onsets_beside(pairs, p, lines, p_onset, onsets):
                 fillstyle="none",
                 label=rf"onset of $\lambda_1 > 0.1$ {unit}",
             )
-        axes.set(xlabel="damping exponent $p$", xlim=(0, p[-1]), ylim=(0, None))
+        axes.set(xlabel="damping exponent $p$", xlim=(0, 1.05 * p[-1]), ylim=(0, None))
     row[0].set_ylabel(r"forcing amplitude $\mu$ (dimensionless)")
     fig.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return fig

@@ -13,7 +13,6 @@ from scipy.special import logsumexp, ndtr
 from duffing import paper
 
 UNITS = {"nats": 1.0, "bits": 1 / np.log(2)}  # Wolf et al. (1985) print exponents to base 2
-AVERAGES = ("from t = 0", "from t = 1200")
 
 
 class Models(NamedTuple):
@@ -47,51 +46,69 @@ class Models(NamedTuple):
 
 
 NUMBERS = ("lambda-027", "lambda-025")
+JUDGEMENTS = ("much-smaller", "agreement", "larger-lambda", "sign-change")
+STATED = Models()
 WIDTH = 0.6  # interval of exponents over which a misprinted one is thought to lie
 
 
-def probabilities(evidence, unit="nats", average=0, models=Models()):
+def probabilities(evidence, unit="nats", average=0, models=STATED):
     """Probability of each statement of `paper.STATEMENTS` for m candidates: dict key -> (m,).
 
     For the two printed exponents it is a density, per unit of the exponent. unit : of the paper's exponents, a key of
     `UNITS`; average : 0 from t = 0, 1 from t = 1200
     """
-    scale = UNITS[unit]
-    chaotic, regular, curves = evidence.chaotic, evidence.regular, evidence.curves
+    scale, curves = UNITS[unit], evidence.curves
     small, linear = curves[paper.P_SMALL], curves[paper.P_LINEAR]
     share = {p: _chaotic(curve, scale) for p, curve in curves.items()}
     onset = {p: _onset(curves[p].mu, share[p]) for p in curves}
     below = small.mu < paper.MU_REGULAR - 1e-9
-    ratio = np.array([onset[p] / evidence.critical[p] for p in curves])
-    with np.errstate(invalid="ignore"):
-        above, distance = np.all(~(ratio < 1), axis=0), np.nanmean(np.log(ratio) ** 2, axis=0)
-    late = regular.amplitude[1] / regular.amplitude[0]
-    jumps = (regular.crossings[0] >= models.jumps) & (regular.crossings[1] == 0)
-    difference = scale * (_largest(small) - _largest(linear))
+    ratio = np.array([onset[p] / evidence.critical[p] for p in curves])  # nan where no onset was found, and no circle
+    above, found = np.all(~(ratio < 1), axis=0), np.isfinite(ratio)
+    distance = np.sum(np.where(found, np.log(ratio) ** 2, 0.0), axis=0) / np.maximum(found.sum(axis=0), 1)
+    distance = np.where(found.any(axis=0), distance, np.inf)
     weak = scale * small.exponent[small.mu < 0.045].mean(axis=1)
-    observed = {
-        "lambda-027": _density(paper.LAMBDA_CHAOTIC, scale * chaotic.exponent[average], models.kernel),
-        "lambda-025": _density(paper.LAMBDA_REGULAR, scale * regular.exponent[average], models.kernel),
+    breadth = [_breadth(curves[p].mu, share[p], onset[p], models.range) for p in (paper.P_SMALL, paper.P_LINEAR)]
+    figures = {
         "no-chaos-below": np.prod(1 - share[paper.P_SMALL][below], axis=0),
         "onset-027": _at_onset(small.mu, share[paper.P_SMALL], models.onset),
-        "not-periodic": np.mean(chaotic.aperiodic > 0.01, axis=0),
-        "transient": np.mean(jumps, axis=0),
         "weak-positive": np.any((weak > 0) & (weak < paper.THRESHOLD), axis=0).astype(float),
         "above-line": above.astype(float),
+        "agreement": np.exp(-distance / (2 * models.agreement**2)),
+        "larger-lambda": ndtr(scale * (_largest(small) - _largest(linear)) / models.larger),
+        "sign-change": np.mean(breadth, axis=0),
     }
-    judged = {
+    return quoted(evidence.chaotic, evidence.regular, unit, average, models) | _floored(figures, models)
+
+
+def quoted(chaotic, regular, unit="nats", average=0, models=STATED):
+    """Of `probabilities` those that the motions at mu = 0.27 and 0.25 decide: Runs (n, m) -> dict key -> (m,)."""
+    scale = UNITS[unit]
+    late = regular.amplitude[1] / regular.amplitude[0]
+    jumps = (regular.crossings[0] >= models.jumps) & (regular.crossings[1] == 0)
+    motions = {
+        "lambda-027": _density(paper.LAMBDA_CHAOTIC, scale * chaotic.exponent[average], models.kernel),
+        "lambda-025": _density(paper.LAMBDA_REGULAR, scale * regular.exponent[average], models.kernel),
+        "not-periodic": np.mean(chaotic.aperiodic > 0.01, axis=0),
+        "transient": np.mean(jumps, axis=0),
         "much-smaller": np.mean(1 / (1 + (late / models.smaller) ** 4), axis=0),
-        "agreement": np.exp(-np.nan_to_num(distance, nan=np.inf) / (2 * models.agreement**2)),
-        "larger-lambda": ndtr(difference / models.larger),
-        "sign-change": np.mean([_breadth(curves[p].mu, share[p], onset[p], models.range) for p in (0.1, 1.0)], axis=0),
     }
-    floor = dict.fromkeys(observed, models.error) | {"weak-positive": models.weak}
-    floor |= dict.fromkeys(NUMBERS, models.misprint) | dict.fromkeys(judged, models.judgement)
+    return _floored(motions, models)
+
+
+def ceiling(chaotic, regular, models=STATED):
+    """What the log likelihood of each candidate can reach at most, were all other statements certain: (m,)."""
+    readings = [(unit, average) for unit in UNITS for average in (0, 1)]
+    logs = [sum(map(np.log, quoted(chaotic, regular, *reading, models).values())) for reading in readings]
+    return marginal(np.array(logs))
+
+
+def _floored(probability, models):
+    """No statement is impossible: each is made in error, or without a reason, with its probability in `models`."""
+    floor = {key: models.error for key in probability}
+    floor |= dict.fromkeys(NUMBERS, models.misprint) | dict.fromkeys(JUDGEMENTS, models.judgement)
+    floor["weak-positive"] = models.weak
     elsewhere = dict.fromkeys(NUMBERS, 1 / WIDTH)  # the density of a misprinted exponent
-    return {
-        key: floor[key] * elsewhere.get(key, 1.0) + (1 - floor[key]) * value
-        for key, value in (observed | judged).items()
-    }
+    return {key: floor[key] * elsewhere.get(key, 1.0) + (1 - floor[key]) * p for key, p in probability.items()}
 
 
 def _density(printed, exponents, kernel):
@@ -129,7 +146,7 @@ def _breadth(mu, share, onset, reach):
     return np.sum(share * inside, axis=0) / np.maximum(inside.sum(axis=0), 1)
 
 
-def log_likelihood(evidence, models=Models(), without=(), units=UNITS, averages=(0, 1)):
+def log_likelihood(evidence, models=STATED, without=(), units=UNITS, averages=(0, 1)):
     """Log likelihood of each reading of the exponents: (len(units), len(averages), m), without some statements."""
     return np.array([
         [
@@ -146,26 +163,55 @@ def marginal(log_likelihoods):
     return logsumexp(readings, axis=0) - np.log(len(readings))
 
 
-def round_prior(alpha, omega, alpha_step, omega_step):
-    """Probability of each candidate when round numbers are likelier: (m,), sums to 1.
+def readings(log_likelihoods):
+    """Probability of each unit (rows) and average (columns) after the text, over all candidates: (2, 2), sums to 1."""
+    return np.exp(logsumexp(log_likelihoods, axis=2) - logsumexp(log_likelihoods))
 
-    alpha is a multiple of 0.1, of 0.01 or any number, omega of 1, of 0.1 or any number, each with probability 1/3;
-    multiples are equally probable among themselves. A candidate stands for the cell of the plane round it.
+
+def best_reading(log_likelihoods):
+    """For each candidate the unit and the average under which the text is likeliest: list of (unit, 0 or 1)."""
+    _, averages, size = np.shape(log_likelihoods)
+    best = np.argmax(np.reshape(log_likelihoods, (-1, size)), axis=0)
+    return [(list(UNITS)[k // averages], int(k % averages)) for k in best]
+
+
+# What the models leave open, varied one at a time.
+VARIATIONS = {
+    "as stated": {},
+    "kernel 0.003": {"kernel": 0.003},
+    "kernel 0.012": {"kernel": 0.012},
+    "misprint 0.01": {"misprint": 0.01},
+    "misprint 0.2": {"misprint": 0.2},
+    "error 0.02": {"error": 0.02},
+    "error 0.0002": {"error": 0.0002},
+    "judgement 0.03": {"judgement": 0.03},
+    "judgement 0.3": {"judgement": 0.3},
+    "onset 0.0025": {"onset": 0.0025},
+    "onset 0.01": {"onset": 0.01},
+    "agreement within 20 %": {"agreement": float(np.log(1.2))},
+    "agreement within a factor 2": {"agreement": float(np.log(2.0))},
+    "larger 0.03": {"larger": 0.03},
+    "much smaller: 0.3": {"smaller": 0.3},
+    "range 0.1": {"range": 0.1},
+    "at least 8 changes of well": {"jumps": 8},
+}
+
+
+def posterior(log_likelihoods, plane, lattice, weight):
+    """Probability of each followed candidate of a lattice of round numbers, and of each of the plane: (m,), (n,).
+
+    The authors used a pair of the lattice with probability `weight`, else any of the plane, each as probable as any
+    other there; candidates that were not followed have likelihood zero. log_likelihoods : of lattice and plane
     """
-    weight = np.ones(np.shape(alpha))
-    for values, step, coarse, fine in ((alpha, alpha_step, 0.1, 0.01), (omega, omega_step, 1.0, 0.1)):
-        axis = np.unique(np.round(values, 6))
-        first, last = axis[0] - step / 2, axis[-1] + step / 2
-        mass = np.full(axis.size, step / (last - first) / 3)
-        for multiple in (coarse, fine):
-            numbers = multiple * np.arange(np.ceil(first / multiple), np.floor(last / multiple) + 1)
-            for number in numbers:
-                mass[np.argmin(np.abs(axis - number))] += 1 / 3 / numbers.size
-        weight = weight * mass[np.searchsorted(axis, np.round(values, 6))]
-    return weight / weight.sum()
+    priors = (weight / lattice.exponent.size, (1 - weight) / plane.exponent.size)
+    masses = [prior * np.exp(logs) for prior, logs in zip(priors, log_likelihoods, strict=True)]
+    total = sum(mass.sum() for mass in masses)
+    return tuple(mass / total for mass in masses)
 
 
-def posterior(log_likelihoods, prior=None):
-    """Probability of each candidate after the text: (m,), sums to 1; prior : (m,), flat unless given."""
-    logs = log_likelihoods + (0.0 if prior is None else np.log(prior))
-    return np.exp(logs - logsumexp(logs))
+def index(evidence, pair):
+    """Which of the candidates the pair is. Raises ValueError where it is none of them."""
+    (found,) = np.nonzero(np.isclose(evidence.alpha, pair.alpha) & np.isclose(evidence.omega, pair.omega))
+    if found.size != 1:
+        raise ValueError(f"pair = {pair.alpha, pair.omega}: must be one of the candidates that were followed")
+    return int(found[0])

@@ -14,9 +14,10 @@ from duffing.integrators.companion import two_trajectory_growth
 from duffing.sweep.families import block_for, over_blocks
 
 from ..remember import remembered
+from . import inference
 
 DISTANCE, SEED = 1e-9, 1
-STARTS = 24  # initial conditions of an ensemble
+STARTS = 32  # initial conditions of an ensemble
 PARTS = 10  # of a forcing period, at which the state is looked at
 SETTLED = 191  # forcing periods: omega t = 1200, rounded up
 AVERAGES = ("from $t = 0$", "from $t = 1200$")
@@ -28,7 +29,8 @@ FIGURE = tuple(np.round(np.arange(0.01, 0.4001, 0.01), 3))  # forcing amplitudes
 FINER = (0.005, 0.255, 0.265)  # besides, at p = 0.1: near 0 and below the onset
 COARSE = tuple(np.round(np.arange(0.02, 0.4001, 0.02), 3))  # where of Fig. 3b only the onset is looked at
 # Candidates. At larger alpha mu = 0.27 lies below mu_c at p = 0.1, whatever omega, and no chaos there is above the line.
-ALPHAS, OMEGAS = (0.02, 0.20), (0.5, 1.8)
+ALPHAS, OMEGAS = (0.01, 0.20), (0.5, 1.8)
+REACH = 10.0  # nats of log likelihood
 CHAOTIC = 0.08  # nats per unit time: 0.12 in bits, and so in either unit ten kernels from the printed 0.175
 P_LINE = (paper.P_SMALL, paper.P_LINEAR, 2.0)  # exponents at which Fig. 3b is looked at
 
@@ -92,53 +94,78 @@ def two_trajectories(alpha, omega, mu, n=STARTS, distance=DISTANCE, seed=SEED, *
     return over_blocks(_companion_rows, osc, state.reshape(2, -1), options, block=block, **run).reshape(2, *osc.shape)
 
 
-def evidence(alpha, omega, n=STARTS, distance=DISTANCE, seed=SEED, **run):
+def quoted(alpha, omega, n=STARTS, **ensemble):
+    """The motions whose exponents are printed: Runs (n, m) at mu = 0.27 and at mu = 0.25; ensemble : as for `runs`."""
+    found = runs(alpha, omega, (paper.MU_CHAOTIC, paper.MU_REGULAR), n=n, **ensemble)
+    return tuple(Runs(*(field[..., i, :, :] for field in found)) for i in range(2))
+
+
+def evidence(alpha, omega, n=STARTS, few=2, known=None, **ensemble):
     """Everything that the statements of the text are held against, for the candidates alpha, omega (m,).
 
-    n : starts at the two forcing amplitudes whose exponents are printed; the figures have an eighth of them
+    n : starts at the two forcing amplitudes whose exponents are printed; few : elsewhere along the figures; known : what
+    `quoted` has found already; ensemble : distance, seed and how it is run, as for `runs`
     """
     alpha, omega = np.broadcast_arrays(*(np.atleast_1d(np.asarray(each, dtype=float)) for each in (alpha, omega)))
-    few = {"n": -(-n // 8), "distance": distance, "seed": seed, **run}
-    quoted = runs(alpha, omega, (paper.MU_CHAOTIC, paper.MU_REGULAR), **{**few, "n": n})
+    chaotic, regular = known or quoted(alpha, omega, n=n, **ensemble)
     curves = {}
     for p in P_LINE:
         mu = np.sort((*FIGURE, *FINER)) if p == paper.P_SMALL else FIGURE if p == paper.P_LINEAR else COARSE
-        found = runs(alpha, omega, mu, p=p, **few)
+        found = runs(alpha, omega, mu, p=p, n=few, **ensemble)
         curves[p] = Curve(np.array(mu), found.exponent[0], found.amplitude[1] > SMALL)
     critical = {p: critical_amplitude(Duffing(alpha=alpha, p=p, omega=omega)) for p in P_LINE}
-    at = [Runs(*(field[..., i, :, :] for field in quoted)) for i in range(2)]
-    return Evidence(alpha, omega, *at, curves, critical)
+    return Evidence(alpha, omega, chaotic, regular, curves, critical)
 
 
 class Plane(NamedTuple):
-    """alpha (a,), omega (w,): the candidates; exponent (a, w): the larger lambda_1 of two starts at mu = 0.27; kept
-    (2, m): indices of those followed further; evidence: of those."""
+    """alpha (a,), omega (w,): the candidates; exponent (a, w): the larger lambda_1 of two starts at mu = 0.27; ceiling
+    (a, w): the log likelihood that a candidate can reach at most, -inf where 0.27 is not chaotic; kept (2, m): indices
+    of those followed to the end; evidence: of those."""
 
     alpha: np.ndarray
     omega: np.ndarray
     exponent: np.ndarray
+    ceiling: np.ndarray
     kept: np.ndarray
     evidence: Evidence
 
 
 @remembered
-def plane(alpha_step=0.01, omega_step=0.025, alphas=ALPHAS, omegas=OMEGAS, n=STARTS, distance=DISTANCE, seed=SEED, **run):
-    """The evidence over a plane of candidates; where mu = 0.27 is not chaotic for two starts, nothing more is computed.
+def plane(alpha_step=0.01, omega_step=0.0125, alphas=ALPHAS, omegas=OMEGAS, n=STARTS, few=2, **ensemble):
+    """The evidence over a plane of candidates, less and less of them: those that are chaotic at mu = 0.27 for one of two
+    starts, and of these such as can come within `REACH` of the best by what the two printed motions allow.
 
-    alphas, omegas : first and last; run : as for `runs`. Raises ValueError for a step that is not positive.
+    alphas, omegas : first and last; ensemble : as for `evidence`. Raises ValueError for a step that is not positive.
     """
     axes = []
     for name, (first, last), step in (("alpha_step", alphas, alpha_step), ("omega_step", omegas, omega_step)):
         axes.append(np.round(np.arange(first, last + checks.positive(name, step) / 2, step), 6))
     alpha, omega = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
-    ensemble = {"distance": distance, "seed": seed, **run}
     exponent = runs(alpha, omega, (paper.MU_CHAOTIC,), n=2, **ensemble).exponent[0, 0].max(axis=0)
-    (kept,) = np.nonzero(exponent > CHAOTIC)
-    if kept.size == 0:
+    (chaotic,) = np.nonzero(exponent > CHAOTIC)
+    if chaotic.size == 0:
         raise ValueError(f"alphas = {alphas}, omegas = {omegas}: no candidate of this plane is chaotic at mu = 0.27")
-    found = evidence(alpha[kept], omega[kept], n=n, **ensemble)
+    motions, ceiling = quoted(alpha[chaotic], omega[chaotic], n=n, **ensemble), np.full(alpha.size, -np.inf)
+    ceiling[chaotic] = inference.ceiling(*motions)
+    near = ceiling[chaotic] > ceiling.max() - REACH
+    kept = chaotic[near]
+    known = tuple(Runs(*(field[..., near] for field in each)) for each in motions)
+    found = evidence(alpha[kept], omega[kept], few=few, known=known, **ensemble)
     shape = tuple(axis.size for axis in axes)
-    return Plane(*axes, exponent.reshape(shape), np.array(np.unravel_index(kept, shape)), found)
+    return Plane(*axes, exponent.reshape(shape), ceiling.reshape(shape), np.array(np.unravel_index(kept, shape)), found)
+
+
+def laid_out(plane, values):
+    """Values (m,) of the candidates that were followed to the end, over the plane: (a, w), nan elsewhere."""
+    cells = np.full(plane.exponent.shape, np.nan)
+    cells[tuple(plane.kept)] = values
+    return cells
+
+
+def neighbourhood(pair, half=(0.0025, 0.00625), size=16, n=8, seed=SEED, **run):
+    """The evidence of `size` pairs at random within `half` of the pair's alpha and omega."""
+    shift = np.random.default_rng(seed).uniform(-1, 1, (2, checks.count("size", size)))
+    return evidence(pair.alpha + half[0] * shift[0], pair.omega + half[1] * shift[1], n=n, seed=seed, **run)
 
 
 def _family(alpha, omega, mu, p, n, distance, seed):
