@@ -4,7 +4,6 @@ import numpy as np
 
 from . import checks
 from .integrators import rk4
-from .integrators.friction_time import adaptive as friction
 
 METHODS = ("auto", "rk4", "friction")
 RK4_OPTIONS = ("steps_per_period", "threads")
@@ -25,7 +24,12 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
     """
     checks.model(osc)
     checks.choice("method", method, METHODS)
-    integrator, allowed = (rk4, RK4_OPTIONS) if method == "rk4" else (friction, FRICTION_OPTIONS)
+    if method == "rk4":
+        integrator, allowed = rk4, RK4_OPTIONS
+    else:  # imported when it is called for: all figures of the paper but Fig. 2 are drawn without it
+        from .integrators.friction_time import adaptive as integrator
+
+        allowed = FRICTION_OPTIONS
     for name in options:
         checks.choice(f"an option of method {method!r}", name, allowed)
     return integrator.integrate(osc, state, t, tangents=tangents, **options)

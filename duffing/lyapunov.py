@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from . import checks
+from .blocks import block_for, over_blocks
 from .flow import integrate, stroboscopic_times
 from .integrators.companion import two_trajectory_growth
-from .sweep.families import block_for, over_blocks
 
 
 class LyapunovSpectrum(NamedTuple):

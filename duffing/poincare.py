@@ -3,8 +3,8 @@
 import numpy as np
 
 from . import checks
+from .blocks import block_for, over_blocks
 from .flow import integrate, stroboscopic_times
-from .sweep.families import block_for, over_blocks
 
 
 def poincare_section(
