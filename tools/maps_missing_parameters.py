@@ -1,6 +1,6 @@
 """Writes _build/maps/missing-parameters.png and prints the likeliest pairs: the plane of candidates in finer steps.
 
-python tools/maps_missing_parameters.py [step of alpha, step of omega]; 0.005 and 0.00625 take some minutes on two cores.
+python tools/maps_missing_parameters.py [step of alpha, step of omega]; 0.005 and 0.00625 take minutes on two cores.
 Runs are kept block by block in _build/maps/blocks: an interrupted run goes on where it was.
 """
 

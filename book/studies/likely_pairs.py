@@ -1,4 +1,4 @@
-"""The paper's Figs. 3b to 6 for any pair alpha, omega: what the page on the likeliest pairs shows beside one another."""
+"""The paper's Figs. 3b to 6 for any pair alpha, omega: what the page on the likeliest pairs shows side by side."""
 
 from dataclasses import replace
 
@@ -24,12 +24,11 @@ def label(pair):
 
 
 def onsets(pairs, step=0.005, last=0.4):
-    """Fig. 3b: dict unit -> the least mu with lambda_1 above the threshold, (pairs, len(P)), nan where there is none."""
+    """Fig. 3b: dict unit -> the least mu with lambda_1 above the threshold, (pairs, len(P)), nan where none is."""
     curve = {"step": step, "last": last}
     mu = reproduction.mu_grid(**curve)[1:]  # mu = 0 has no forcing
-    exponent = np.array(
-        [[reproduction.exponent_curve(p, osc=oscillator(pair), **curve)[1][1:] for p in P] for pair in pairs]
-    )
+    rows = [[reproduction.exponent_curve(p, osc=oscillator(pair), **curve)[1] for p in P] for pair in pairs]
+    exponent = np.array(rows)[..., 1:]
     found = {unit: exponent > level for unit, level in THRESHOLDS.items()}
     return {unit: np.where(each.any(axis=-1), mu[each.argmax(axis=-1)], np.nan) for unit, each in found.items()}
 
@@ -49,7 +48,7 @@ def exponents(pairs, step=0.002, last=0.4):
 
 
 def portrait(pair, mu, early):
-    """Fig. 5: (before, after) omega t = 1200, each path and stroboscopic points; None instead of the first unless early."""
+    """Fig. 5: (before, after) omega t = 1200, each path and stroboscopic points; the first is None unless early."""
     osc = oscillator(pair)
     found = reproduction.motion(mu, osc=osc, end=paper.END / osc.omega)
     settled, end = paper.SETTLED / osc.omega, paper.END / osc.omega

@@ -28,7 +28,7 @@ WEAK = (0.005, 0.01, 0.02, 0.03, 0.04)  # "mu close to 0"
 FIGURE = tuple(np.round(np.arange(0.01, 0.4001, 0.01), 3))  # forcing amplitudes at which Fig. 4 is looked at
 FINER = (0.005, 0.255, 0.265)  # besides, at p = 0.1: near 0 and below the onset
 COARSE = tuple(np.round(np.arange(0.02, 0.4001, 0.02), 3))  # where of Fig. 3b only the onset is looked at
-# Candidates. At larger alpha mu = 0.27 lies below mu_c at p = 0.1, whatever omega, and no chaos there is above the line.
+# Candidates. At larger alpha mu = 0.27 lies below mu_c at p = 0.1, whatever omega: chaos there is below the line.
 ALPHAS, OMEGAS = (0.01, 0.20), (0.5, 1.8)
 REACH = 10.0  # nats of log likelihood
 CHAOTIC = 0.08  # nats per unit time: 0.12 in bits, and so in either unit ten kernels from the printed 0.175
@@ -103,8 +103,8 @@ def quoted(alpha, omega, n=STARTS, **ensemble):
 def evidence(alpha, omega, n=STARTS, few=2, known=None, **ensemble):
     """Everything that the statements of the text are held against, for the candidates alpha, omega (m,).
 
-    n : starts at the two forcing amplitudes whose exponents are printed; few : elsewhere along the figures; known : what
-    `quoted` has found already; ensemble : distance, seed and how it is run, as for `runs`
+    n : starts at the two forcing amplitudes whose exponents are printed; few : elsewhere along the figures; known :
+    what `quoted` has found already; ensemble : distance, seed and how it is run, as for `runs`
     """
     alpha, omega = np.broadcast_arrays(*(np.atleast_1d(np.asarray(each, dtype=float)) for each in (alpha, omega)))
     chaotic, regular = known or quoted(alpha, omega, n=n, **ensemble)
@@ -132,8 +132,8 @@ class Plane(NamedTuple):
 
 @remembered
 def plane(alpha_step=0.01, omega_step=0.0125, alphas=ALPHAS, omegas=OMEGAS, n=STARTS, few=2, **ensemble):
-    """The evidence over a plane of candidates, less and less of them: those that are chaotic at mu = 0.27 for one of two
-    starts, and of these such as can come within `REACH` of the best by what the two printed motions allow.
+    """The evidence over a plane of candidates, less and less of them: those that are chaotic at mu = 0.27 from one of
+    two starts, and of these such as can come within `REACH` of the best by what the two printed motions allow.
 
     alphas, omegas : first and last; ensemble : as for `evidence`. Raises ValueError for a step that is not positive.
     """
