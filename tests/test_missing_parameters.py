@@ -52,7 +52,7 @@ def test_crossings_amplitudes_and_periods_are_those_of_the_motion():
         crossings = np.nonzero(np.diff(np.sign(x)))[0]
         assert found.crossings[:, 0, 0, k].tolist() == [np.sum(crossings < 1910), np.sum(crossings >= 1910)]
         halves = [np.ptp(x[:1911]) / 2, np.ptp(x[1910:]) / 2]
-        np.testing.assert_allclose(found.amplitude[:, 0, 0, k], halves, rtol=1e-12)
+        np.testing.assert_allclose(found.amplitude[:, 0, 0, k], halves, rtol=1e-8)
         points = np.array([x, v])[:, 1910::10]
         apart = [np.hypot(*(points[:, q:] - points[:, :-q])).max() for q in range(1, 7)]
         assert found.aperiodic[0, 0, k] == pytest.approx(min(apart), rel=1e-9)
@@ -93,8 +93,8 @@ def test_an_exponent_in_bits_is_one_in_nats_over_the_logarithm_of_two():
 
 def test_wolfs_exponent_of_the_lorenz_attractor_is_in_bits():
     """Wolf et al. (1985) print 2.16 for sigma = 16, R = 45.92, b = 4; in nats it is 1.50 (see Sprott's page)."""
-    sigma, r, b, h = 16.0, 45.92, 4.0, 0.002
-    state = np.random.default_rng(0).uniform(1, 2, (3, 200))
+    sigma, r, b, h = 16.0, 45.92, 4.0, 0.004
+    state = np.random.default_rng(0).uniform(-20, 20, (3, 200)) + [[0], [0], [45]]
     tangent, total = np.ones((3, 200)), 0.0
 
     def slope(s, u):
@@ -103,7 +103,7 @@ def test_wolfs_exponent_of_the_lorenz_attractor_is_in_bits():
             [sigma * (c - a), a * (r - z) - x * d - c, a * y + x * c - b * d]
         )
 
-    for step in range(6000):
+    for step in range(7000):
         k1 = slope(state, tangent)
         k2 = slope(state + h / 2 * k1[0], tangent + h / 2 * k1[1])
         k3 = slope(state + h / 2 * k2[0], tangent + h / 2 * k2[1])
@@ -112,8 +112,8 @@ def test_wolfs_exponent_of_the_lorenz_attractor_is_in_bits():
         state = state + h / 6 * sum(w * k[0] for k, w in weights)
         tangent = tangent + h / 6 * sum(w * k[1] for k, w in weights)
         length = np.sqrt(np.sum(tangent**2, axis=0))
-        tangent, total = tangent / length, total + (np.log(length).mean() if step >= 1000 else 0.0)
-    exponent = total / (5000 * h)
+        tangent, total = tangent / length, total + (np.log(length).mean() if step >= 3000 else 0.0)
+    exponent = total / (4000 * h)
     assert exponent * inference.UNITS["bits"] == pytest.approx(2.16, abs=0.03)
     assert exponent == pytest.approx(1.50, abs=0.02)
 

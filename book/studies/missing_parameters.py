@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from duffing import Duffing, checks, critical_amplitude, paper
+from duffing.blocks import block_for, over_blocks
 from duffing.flow import integrate
 from duffing.integrators.companion import two_trajectory_growth
-from duffing.sweep.families import block_for, over_blocks
 
 from ..remember import remembered
 from . import inference
