@@ -17,7 +17,7 @@ from ..remember import remembered
 from . import inference
 
 DISTANCE, SEED = 1e-9, 1
-STARTS = 32  # initial conditions of an ensemble
+STARTS = 24  # initial conditions of an ensemble
 PARTS = 10  # of a forcing period, at which the state is looked at
 SETTLED = 191  # forcing periods: omega t = 1200, rounded up
 AVERAGES = ("from $t = 0$", "from $t = 1200$")
