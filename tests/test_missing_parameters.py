@@ -94,7 +94,7 @@ def test_an_exponent_in_bits_is_one_in_nats_over_the_logarithm_of_two():
 def test_wolfs_exponent_of_the_lorenz_attractor_is_in_bits():
     """Wolf et al. (1985) print 2.16 for sigma = 16, R = 45.92, b = 4; in nats it is 1.50 (see Sprott's page)."""
     sigma, r, b, h = 16.0, 45.92, 4.0, 0.004
-    state = np.random.default_rng(0).uniform(-20, 20, (3, 200)) + [[0], [0], [45]]
+    state = np.random.default_rng(0).uniform(-20, 20, (3, 200)) + np.array([[0.0], [0.0], [45.0]])
     tangent, total = np.ones((3, 200)), 0.0
 
     def slope(s, u):
@@ -184,6 +184,9 @@ def test_the_pair_that_fits_the_exponents_in_bits_has_no_transient():
     assert scale * chaotic.exponent[0].mean() == pytest.approx(paper.LAMBDA_CHAOTIC, abs=0.02)
     assert scale * regular.exponent[0].mean() == pytest.approx(paper.LAMBDA_REGULAR, abs=0.02)
     assert np.all(regular.crossings == 0)
+    osc = Duffing(alpha=0.16, omega=1.175)
+    (onset,) = reproduction.onsets((0.1,), step=0.005, last=0.3, osc=osc)
+    assert 1 < onset / critical_amplitude(Duffing(alpha=0.16, p=0.1, omega=1.175)) < 1.1
 
 
 def test_beyond_the_domain_the_critical_amplitude_exceeds_0_27_at_every_frequency():
