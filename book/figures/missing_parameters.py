@@ -28,7 +28,7 @@ def likelihood_maps(alpha, omega, exponent, panels, likely):
         panel.grid(False)
         for letter, (a, w) in likely.items():
             panel.plot(w, a, "o", color=VERMILION, fillstyle="none", markersize=11, markeredgewidth=1.6)
-            panel.annotate(letter, (w, a), (8, 7), textcoords="offset points", color=VERMILION, fontsize=11)
+            panel.annotate(letter, (w, a), (8, 7), textcoords="offset points", color=BLACK, fontsize=12)
     fig.supxlabel(OMEGA, fontsize=11)
     fig.supylabel(ALPHA, fontsize=11)
     return fig
