@@ -10,6 +10,7 @@ import os
 import numpy as np
 
 from . import checks
+from .failures import POLICIES, announce, attempted
 from .flow import METHODS
 
 BLOCK = 256  # members, where the caller knows nothing better
@@ -45,8 +46,9 @@ def block_for(periods, method="auto", steps_per_period=500, **_):
 
 
 def over_blocks(
-    function, osc, state, options, *, block=BLOCK, dwindling=False, executor=None, progress=None, checkpoint=None
-):
+    function, osc, state, options, *, block=BLOCK, dwindling=False, executor=None, progress=None, checkpoint=None,
+    on_failure="raise", rows=None,
+):  # the problem, then how it is run  # fmt: skip
     """function(osc, state, threads=..., **options) over a family of N members, block by block.
 
     function : returns an array whose last axis is the members' (as many as it is given, whatever their number)
@@ -59,6 +61,7 @@ def over_blocks(
         without arguments that makes one; None is threads here
     progress : True, a bar where somebody watches; or called as progress(done, total) with numbers of members
     checkpoint : a folder for finished tasks, from which the same call goes on where an earlier one ended
+    on_failure : "raise", or "nan": see `answers`; then rows is the shape of a member's result
 
     Returns the array over all members, the same bit for bit whatever the block, executor and checkpoint. Memory beyond
     it and the family is that of the tasks under way, at most `workers.IN_FLIGHT`.
@@ -70,15 +73,17 @@ def over_blocks(
     threads = options.pop("threads", None)
     here = os.cpu_count() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
+    lenient = None if checks.choice("on_failure", on_failure, POLICIES) == "raise" else rows
     unseen = executor is None and progress is None and checkpoint is None
     # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own. It
     # runs in the caller's thread, where an interrupt arrives at once.
     if unseen and (dwindling or state.shape[1] <= 2 * here * block):
-        return _whole(function, checks.model(osc), state, {**options, "threads": here})
-    from .sweep.families import spread  # executors, progress and checkpoints: no figure of the paper asks for them
-
-    inside = here if executor is not None and threads is not None else 1
-    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint)
+        result = _whole(function, checks.model(osc), state, {**options, "threads": here}, lenient)
+    else:
+        result = _spread(function, osc, state, options, block, here, executor, threads, lenient, progress, checkpoint)
+    if lenient is not None:
+        announce(result, osc, lambda members: function(osc.members(members), state[:, members], **options))
+    return result
 
 
 def by_exponent(columns):
@@ -86,9 +91,25 @@ def by_exponent(columns):
     return np.argsort(columns[1], kind="stable")
 
 
-def _whole(function, osc, state, options):
+def _whole(function, osc, state, options, rows):
     order = by_exponent(osc.columns())
-    rows = function(osc.members(order), np.ascontiguousarray(state[:, order]), **options)
-    result = np.empty_like(rows)
-    result[..., order] = rows
-    return result
+    result = on_block(function, osc.members(order), np.ascontiguousarray(state[:, order]), options, rows)
+    back = np.empty_like(result)
+    back[..., order] = result
+    return back
+
+
+def on_block(function, osc, state, options, rows=None):
+    """function on a block of members; rows : None, or the shape of a member's result, NaN where it has no answer."""
+
+    def some(members):
+        return function(osc.members(members), np.ascontiguousarray(state[:, members]), **options)
+
+    return function(osc, state, **options) if rows is None else attempted(some, np.arange(state.shape[1]), rows)
+
+
+def _spread(function, osc, state, options, block, here, executor, threads, rows, progress, checkpoint):
+    from .sweep.families import spread  # executors, progress and checkpoints: no figure of the paper asks for them
+
+    inside = here if executor is not None and threads is not None else 1
+    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint, rows)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import checks
+from .failures import answers
 from .integrators import rk4
 
 METHODS = ("auto", "rk4", "friction")
@@ -35,15 +36,21 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
     return integrator.integrate(osc, state, t, tangents=tangents, **options)
 
 
-def trajectory(osc, state, t, method="auto", **options):
+def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
     """States at the increasing times t: array (2, len(t), *family) of x and v; the state given is the one at t[0].
 
-    state : (2,) for all members or (2, *family); method, options, errors : as for `integrate`.
+    state : (2,) for all members or (2, *family)
+    on_failure : "raise", or "nan": members that diverge or do not converge are NaN, and one warning says so
+    method, options, errors : as for `integrate`
     """
     checks.model(osc)
     t = checks.times(t)
-    orbit = integrate(osc, checks.state(state, osc.shape), t, method=method, **options)
-    return orbit.states.reshape(2, t.size, *osc.shape)
+    state = checks.state(state, osc.shape)
+
+    def states(members):
+        return integrate(osc.members(members), state[:, members], t, method=method, **options).states
+
+    return answers(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
 
 
 def stroboscopic_times(osc, periods, transient=0, phase=0.0):

@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from .. import checks
-from ..blocks import by_exponent
+from ..blocks import by_exponent, on_block
 from ..oscillator import Duffing
 from .checkpoint import Checkpoint
 from .progress import reporting
@@ -25,21 +25,25 @@ TASKS = 4096
 GRACE = 1.0
 
 
-def spread(function, osc, state, options, block, threads, inside, executor=None, progress=None, checkpoint=None):
+def spread(
+    function, osc, state, options, block, threads, inside, executor=None, progress=None, checkpoint=None, rows=None
+):
     """What `duffing.blocks.over_blocks` does when it is asked for more than one piece; the arguments as there.
 
-    threads : blocks at once where there is no executor; inside : threads of each block
+    threads : blocks at once where there is no executor; inside : threads of each block; rows : as for `on_block`
     """
     if executor is not None and not is_executor(executor):
         raise ValueError(f"executor = {executor!r}: must be None, an executor or a function that makes one")
     total = state.shape[1]
     family = _Family(osc, state, block * -(-total // (block * TASKS)))
-    store = None if checkpoint is None else Checkpoint(checkpoint, function, options)
+    # A block with NaN is no result of a run that does not allow them.
+    run = options if rows is None else {**options, "on_failure": "nan"}
+    store = None if checkpoint is None else Checkpoint(checkpoint, function, run)
     # Threads see it and stop between two blocks; processes are ended, and a cluster is let be.
     stop = threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None
 
     def arguments(start):
-        return *family.part(start), function, {**options, "threads": inside}, block, stop
+        return *family.part(start), function, {**options, "threads": inside}, block, stop, rows
 
     with reporting(progress, total) as report:
         missing = [s for s in family.starts if store is None or not family.restore(s, store, report)]
@@ -88,7 +92,7 @@ class _Family:
         report(self.done)
 
 
-def _run(columns, state, function, options, block, stop):
+def _run(columns, state, function, options, block, stop, rows=None):
     """What a worker does: one block of its task after the other. What it returns once stopped nobody takes."""
     results = []
     for start in range(0, state.shape[1], block):
@@ -96,5 +100,5 @@ def _run(columns, state, function, options, block, stop):
             return None
         members = slice(start, start + block)
         osc = Duffing(*columns[:, members])
-        results.append(function(osc, np.ascontiguousarray(state[:, members]), **options))
+        results.append(on_block(function, osc, np.ascontiguousarray(state[:, members]), options, rows))
     return np.concatenate(results, axis=-1)
