@@ -85,13 +85,13 @@ STATEMENTS = (
         "above-line",
         "Fig. 3b",
         "“in all cases (Fig. 3b) points are above the line”",
-        "onset of λ₁ > 0.1 above μ_c at p = 0.1, 1 and 2",
+        "onset of λ₁ > 0.1 above $μ_c$ at p = 0.1, 1 and 2",
     ),
     Statement(
         "agreement",
         "Fig. 3b",
         "“both sets of results: analytical and numerical are in good agreement”",
-        "onset of λ₁ > 0.1 near μ_c at p = 0.1, 1 and 2",
+        "onset of λ₁ > 0.1 near $μ_c$ at p = 0.1, 1 and 2",
     ),
     Statement(
         "larger-lambda",
