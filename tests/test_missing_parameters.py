@@ -122,7 +122,7 @@ def test_the_onset_is_weighed_by_where_chaos_first_appears():
     mu = np.array([0.24, 0.25, 0.26, 0.27, 0.28])
     share = np.array([[0, 0, 1, 1, 1], [0, 0, 0.5, 1, 1], [0, 0, 0, 0, 1], [0, 0, 0, 1, 1]]).T
     expected = [np.exp(-2), (np.exp(-2) + 1) / 2, 0, 1]
-    np.testing.assert_allclose(inference._at_onset(mu, share, 0.005), expected)
+    np.testing.assert_allclose(inference.at_onset(mu, share, 0.005), expected)
 
 
 def test_no_likelihood_exceeds_its_ceiling(likely, lattice):

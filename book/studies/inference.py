@@ -70,7 +70,7 @@ def probabilities(evidence, unit="nats", average=0, models=STATED):
     breadth = [_breadth(curves[p].mu, share[p], onset[p], models.range) for p in (paper.P_SMALL, paper.P_LINEAR)]
     figures = {
         "no-chaos-below": np.prod(1 - share[paper.P_SMALL][below], axis=0),
-        "onset-027": _at_onset(small.mu, share[paper.P_SMALL], models.onset),
+        "onset-027": at_onset(small.mu, share[paper.P_SMALL], models.onset),
         "weak-positive": np.any((weak > 0) & (weak < paper.THRESHOLD), axis=0).astype(float),
         "above-line": above.astype(float),
         "agreement": np.exp(-distance / (2 * models.agreement**2)),
@@ -126,8 +126,8 @@ def _onset(mu, share):
     return np.where(found.any(axis=0), mu[found.argmax(axis=0)], np.nan)
 
 
-def _at_onset(mu, share, width):
-    """Mean of the kernel about 0.27 over where chaos first appears from 0.25 on: (m,)."""
+def at_onset(mu, share, width):
+    """Mean of a normal kernel about 0.27 over where chaos first appears above 0.25: mu (k,), share (k, m) -> (m,)."""
     near = (mu > paper.MU_REGULAR + 1e-9) & (mu < paper.MU_CHAOTIC + 1e-9)
     probability, nothing_yet = 0.0, 1.0
     for value, chance in zip(mu[near], share[near], strict=True):
