@@ -46,7 +46,8 @@ archive: book
 	$(BIN)/python tools/archive.py
 
 # Planes, basins and transients at full resolution into _build/maps: hours on two cores; an interrupted run goes on where
-# it was. `make maps WHAT=window`: the window of chaos from 200 starts, some minutes; WHAT=headline: the README's picture.
+# it was. `make maps WHAT=candidates`: the candidates for alpha and omega on a finer grid, some minutes; WHAT=window: the
+# window of chaos from 200 starts, some minutes; WHAT=headline: the README's picture.
 maps: $(READY)
 	$(BIN)/python tools/maps.py $(WHAT)
 
