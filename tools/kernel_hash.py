@@ -54,11 +54,20 @@ def main():
         for tangents in range(3):
             for name, integrate in (("rk4", rk4.integrate), ("adaptive", adaptive.integrate)):
                 report(f"{name}, p = {p}, {tangents} tangents", lambda: integrate(osc, START, t, tangents))
-            report(f"adaptive, p = {p}, {tangents} tangents, own times", lambda: adaptive.integrate(osc, START, own, tangents))
+            report(
+                f"adaptive, p = {p}, {tangents} tangents, own times",
+                lambda: adaptive.integrate(osc, START, own, tangents),
+            )
             report(f"rk4, p = {p}, {tangents} tangents, own times", lambda: rk4.integrate(osc, START, own, tangents))
             few = Duffing(p=p, mu=np.linspace(0.15, 0.3, 11))
-            report(f"adaptive, p = {p}, {tangents} tangents, backward", lambda: adaptive.integrate(few, START, -t[:3] / 4, tangents))
-            report(f"adaptive, p = {p}, {tangents} tangents, loose", lambda: adaptive.integrate(osc, START, t, tangents, rtol=1e-5, atol=1e-7))
+            report(
+                f"adaptive, p = {p}, {tangents} tangents, backward",
+                lambda: adaptive.integrate(few, START, -t[:3] / 4, tangents),
+            )
+            report(
+                f"adaptive, p = {p}, {tangents} tangents, loose",
+                lambda: adaptive.integrate(osc, START, t, tangents, rtol=1e-5, atol=1e-7),
+            )
         report(f"companion, p = {p}", lambda: two_trajectory_growth(osc, START, 2))
         for direction in (1, -1):
             starts = np.array([np.linspace(0.1, 1.2, 21), np.linspace(-0.4, 0.5, 21)])
@@ -68,8 +77,13 @@ def main():
                     f"turning points, p = {p}, direction {direction}, derivatives {derivatives}",
                     lambda: to_turning_point(one, starts, 0.2, direction, derivatives=derivatives),
                 )
-            report(f"turning points beyond, p = {p}, direction {direction}", lambda: to_turning_point(one, starts, 0.2, direction, beyond=0.3))
-    mixed = Duffing(p=np.array(EXPONENTS * 5), mu=np.linspace(0.0, 0.3, 45), alpha=np.tile([0.0, 0.05, 0.1, 0.3, 0.2], 9))
+            report(
+                f"turning points beyond, p = {p}, direction {direction}",
+                lambda: to_turning_point(one, starts, 0.2, direction, beyond=0.3),
+            )
+    mixed = Duffing(
+        p=np.array(EXPONENTS * 5), mu=np.linspace(0.0, 0.3, 45), alpha=np.tile([0.0, 0.05, 0.1, 0.3, 0.2], 9)
+    )
     t = 2 * np.pi * np.arange(6) / 2
     for tangents in range(3):
         report(f"adaptive, mixed, {tangents} tangents", lambda: adaptive.integrate(mixed, START, t, tangents))

@@ -16,9 +16,9 @@ from .. import checks
 from ..errors import DivergedError
 from .compiled import compiled, inlined
 from .forcing import map_chunks
+from .memory import stack, views, widest_vectors
 from .powers import evaluate
 from .solution import Solution
-from .memory import stack, views, widest_vectors
 from .vectors import EIGHT, fma, root, where
 
 # Trajectories of a block: its rows stay in the first-level cache.

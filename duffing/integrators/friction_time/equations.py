@@ -26,8 +26,31 @@ from ..compiled import inlined, inner
 from ..memory import widest_vectors
 from ..vectors import fma, repeated, where
 from .block import (
-    ALPHA, DAMPER, DELTA, ETA1, ETA2, GAMMA, LINEAR, M, MU, N, NEW, NOW, OMEGA, OSC, S, SLOPES, SPRING, START, T, W, X,
-    XI1, XI2, eights, lanes,
+    ALPHA,
+    DAMPER,
+    DELTA,
+    ETA1,
+    ETA2,
+    GAMMA,
+    LINEAR,
+    MU,
+    NEW,
+    NOW,
+    OMEGA,
+    OSC,
+    SLOPES,
+    SPRING,
+    START,
+    XI1,
+    XI2,
+    M,
+    N,
+    S,
+    T,
+    W,
+    X,
+    eights,
+    lanes,
 )  # fmt: skip
 from .elementary import cosine, logarithm, power
 

@@ -6,7 +6,7 @@ tangent to the orbit. Each trial is a step like any other: the lanes beside do n
 
 from ..compiled import inlined, inner
 from ..vectors import where
-from .block import FAR, H, LAST, MOVE, NEAR, NEW, NOW, OWNER, SLOPES, STEP, T, TARGET, W, lanes
+from .block import FAR, LAST, MOVE, NEAR, NEW, NOW, OWNER, SLOPES, STEP, TARGET, H, T, W, lanes
 from .equations import first_slopes
 
 

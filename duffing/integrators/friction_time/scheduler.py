@@ -13,16 +13,64 @@ from numba import int64
 from ..compiled import compiled, inner
 from ..memory import stack
 from .block import (
-    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, H, INTERVAL, LOG1, LOG2, M, MEMBER, MOVE, N, NEW,
-    NOW, OMEGA, OSC, OUTCOME, OWNER, P, PARAMETERS, PASSAGES, REJECTED, S, SHEAR, SIGN, SLOPES, START, STEP, STEPS, T,
-    TARGET, W, WIDTH, X, XI1, XI2, lanes,
+    ALPHA,
+    BLOCK,
+    CREEP,
+    ETA1,
+    ETA2,
+    EVALUATIONS,
+    FAR,
+    FRAME,
+    GAIN,
+    INTERVAL,
+    LOG1,
+    LOG2,
+    MEMBER,
+    MOVE,
+    NEW,
+    NOW,
+    OMEGA,
+    OSC,
+    OUTCOME,
+    OWNER,
+    PARAMETERS,
+    PASSAGES,
+    REJECTED,
+    SHEAR,
+    SIGN,
+    SLOPES,
+    START,
+    STEP,
+    STEPS,
+    TARGET,
+    WIDTH,
+    XI1,
+    XI2,
+    H,
+    M,
+    N,
+    P,
+    S,
+    T,
+    W,
+    X,
+    lanes,
 )  # fmt: skip
 from .dop853 import step
 from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
 from .event_location import locate_event
 from .radau import at_rest, radau_step
 from .step_control import (
-    ARRIVES, COLLAPSES, CREEPS, DONE, GOING, NO_CROSSING, STUCK, TOO_MANY_STEPS, accept_steps, not_beyond,
+    ARRIVES,
+    COLLAPSES,
+    CREEPS,
+    DONE,
+    GOING,
+    NO_CROSSING,
+    STUCK,
+    TOO_MANY_STEPS,
+    accept_steps,
+    not_beyond,
 )  # fmt: skip
 from .tangent_frame import log_area, orthonormalise
 
@@ -118,7 +166,9 @@ def handle_event(block, l, times, event, beyond, tangents, control, results, sta
         first_slopes(block, l)
         outcome = GOING
     elif outcome == CREEPS:
-        step[CREEP, l] = max(step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l])  # the first can underflow
+        step[CREEP, l] = max(
+            step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l]
+        )  # the first can underflow
         outcome = creep(block, l, event, beyond, tangents, control)
     while outcome != GOING:
         member, interval = int(owner[MEMBER, l]), int(owner[INTERVAL, l])
