@@ -33,6 +33,12 @@ def onsets(pairs, step=0.005, last=0.4):
     return {unit: np.where(each.any(axis=-1), mu[each.argmax(axis=-1)], np.nan) for unit, each in found.items()}
 
 
+def onset_ratios(pairs, p=paper.P_SMALL):
+    """Onset of lambda_1 above the threshold (in nats) over mu_c at one exponent: (pairs,)."""
+    found = onsets(pairs)["nats"][:, P.index(p)]
+    return found / lines(pairs, np.array([p]))[:, 0]
+
+
 def lines(pairs, p):
     """mu_c of Eq. 13: (pairs, len(p))."""
     return np.array([critical_amplitude(replace(oscillator(pair), p=p)) for pair in pairs])
