@@ -3,7 +3,6 @@
 A member's numbers do not depend on its company, so neither do they on the blocks, the workers or the order of arrival.
 """
 
-import os
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
@@ -14,6 +13,7 @@ import numpy as np
 
 from .. import checks
 from ..flow import METHODS
+from ..integrators import processors
 from ..oscillator import Duffing
 from .checkpoint import Checkpoint
 from .progress import reporting
@@ -84,7 +84,7 @@ def over_blocks(
         raise ValueError(f"executor = {executor!r}: must be None, an executor or a function that makes one")
     options, total = dict(options), state.shape[1]
     threads = options.pop("threads", None)
-    here = os.cpu_count() if threads is None else checks.count("threads", threads)
+    here = processors.available() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
     # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own.
     unseen = executor is None and progress is None and checkpoint is None
