@@ -289,3 +289,33 @@ def test_the_pages_on_the_package_hold_every_public_name_and_every_module(tmp_pa
     for package in ("duffing", "book"):
         for name in api_page.modules_of(package):
             assert html[f"api/{name.rpartition('.')[0]}"].count(f'id="module-{name}"') == 1, name
+
+
+NUMBERS = """
+    ---
+    file_format: mystnb
+    kernelspec: {name: python3, display_name: Python 3, language: python}
+    ---
+    # Page
+
+    ```{code-cell} python
+    from myst_nb import glue
+    glue("small", -1.36e-3, display=False)
+    ```
+
+    It is {glue:text}`small:.2e`, code stays `-1e-03`.
+
+    | a | b |
+    | :-- | :-- |
+    | -0.5 | `-0.5` |
+"""
+
+
+def test_glued_numbers_and_tables_are_typeset_and_code_is_not(tmp_path):
+    (tmp_path / "index.md").write_text(textwrap.dedent(NUMBERS).lstrip())
+    head = f"import sys\nsys.path[:0] = [{str(BOOK / 'book' / 'sphinx')!r}, {str(BOOK)!r}]\n"
+    (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "typeset_numbers"]\nhtml_theme = "basic"\n')
+    html, _ = build(tmp_path)
+    assert 'It is <span class="pasted-text">\u22121.36 \u00d7 10\u207b\u00b3</span>' in html["index"]
+    assert "<p>\u22120.5</p>" in html["index"]
+    assert html["index"].count("-1e-03") == html["index"].count(">-0.5<") == 1
