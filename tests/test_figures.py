@@ -95,8 +95,8 @@ def figure_functions():
 
 @pytest.mark.parametrize("function", list(figure_functions()))
 def test_every_figure_function_is_drawn_by_a_case(function):
-    drawn = {ast.unparse(node.func) for file in FILES for node in ast.walk(ast.parse(Path(file.__file__).read_text()))
-             if isinstance(node, ast.Call)}  # one set, over files and calls  # fmt: skip
+    trees = [ast.parse(Path(file.__file__).read_text(encoding="utf-8")) for file in FILES]
+    drawn = {ast.unparse(node.func) for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)}
     assert function in drawn
 
 

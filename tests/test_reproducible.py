@@ -66,7 +66,9 @@ def test_a_kernel_is_told_how_many_processors_it_has(tmp_path, monkeypatch):
     (tmp_path / "chapters").mkdir()
     front = "---\njupytext: {text_representation: {extension: .md, format_name: myst}}\n"
     front += "kernelspec: {name: python3, display_name: Python 3, language: python}\n---\n"
-    (tmp_path / "chapters" / "x.md").write_text(front + "\n```{code-cell} ipython3\nimport os\nos.cpu_count()\n```\n")
+    (tmp_path / "chapters" / "x.md").write_text(
+        front + "\n```{code-cell} ipython3\nimport os\nos.cpu_count()\n```\n", encoding="utf-8"
+    )
     monkeypatch.setattr(reproducible, "ROOT", tmp_path)
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path))  # put back after the test, which changes it
     monkeypatch.setenv("JUPYTER_PREFER_ENV_PATH", "1")

@@ -26,6 +26,7 @@ MARKS = {
     "skipped": ("○", "test skipped"),
     "not run": ("○", "test not run"),
 }
+SLOW = 3.0  # seconds from which a test's time is shown
 logger = logging.getLogger(__name__)
 
 
@@ -104,7 +105,9 @@ def fill(app, doctree, page):
         sign, word = MARKS[how]
         if kind == "outcome":
             count = f", {cases} cases" if cases > 1 else ""
-            node += nodes.Text(f"{sign} {how}{count}")
+            seconds = app.config.test_run["seconds"].get(test, 0.0)
+            took = f", {seconds:.0f} s" if seconds >= SLOW else ""
+            node += nodes.Text(f"{sign} {how}{count}{took}")
             node["classes"] += ["test-outcome", how.replace(" ", "-")]
         else:
             shown = nodes.inline(classes=[f"test-{kind}", how.replace(" ", "-")])
@@ -171,7 +174,11 @@ class TestPage(SphinxDirective):
 
 def load_run(app, config):
     report = run_report.of_this_state(app.srcdir)
-    config.test_run = {**report, "outcomes": run_report.by_function(report["outcomes"])}
+    functions = {
+        "outcomes": run_report.by_function(report["outcomes"]),
+        "seconds": run_report.seconds_of(report["durations"]),
+    }
+    config.test_run = {**report, **functions}
 
 
 def setup(app):
