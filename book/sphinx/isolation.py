@@ -68,6 +68,7 @@ def surroundings(folder, root, given):
 def isolate(folder, root):
     """Put this process, and so all that it starts, into the surroundings of the folder, which is made ready."""
     changed = surroundings(folder, root, os.environ)
+    sys.path.insert(0, changed["PYTHONPATH"])
     for name in os.environ.keys() - changed.keys():
         del os.environ[name]
     os.environ.update(changed)
