@@ -7,7 +7,6 @@ what a task adds on threads, processes and a dask cluster of two worker processe
 from how many members on a thousand dask workers beat this machine's processors, and what a plane of 4096 x 4096 takes.
 """
 
-import os
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
@@ -16,6 +15,7 @@ from multiprocessing import get_context
 from dask.distributed import Client, LocalCluster
 
 from duffing import Duffing
+from duffing.integrators import processors
 from duffing.sweep.cost import Workers, block_seconds, pays_from, seconds, workers
 
 PLANE = 4096 * 4096
@@ -40,7 +40,7 @@ def main():
     found = {name: workers(make, 2) for name, make in executors.items()}
     for name, by in found.items():
         print(f"{name:10} ready after {by.start:6.2f} s, a task adds {1e3 * by.task:6.2f} ms")
-    here = Workers(os.cpu_count(), 0.0, found["threads"].task)
+    here = Workers(processors.available(), 0.0, found["threads"].task)
     there = Workers(CORES, found["dask"].start, found["dask"].task)
     for method in ("rk4", "friction"):
         for p in (0.1, 1.0):

@@ -70,13 +70,13 @@ DRAWN = """
     ---
     import numpy as np
     from book.figures import paper as figures
-    from duffing import Duffing, lyapunov_spectrum
+    from duffing import Duffing, critical_amplitude
     x = np.linspace(-1.5, 1.5, 50)
     figures.fig1a(x, Duffing().potential(x))
     ```
 
     ```{code-cell} ipython3
-    lyapunov_spectrum(Duffing(p=0.5, mu=0.2), periods=5, transient=0).exponents.round(6)
+    round(critical_amplitude(Duffing(p=0.5)), 6)
     ```
 """
 
@@ -101,7 +101,7 @@ def start(root, **variables):
     """Start its build; what it says goes to the file `output`."""
     command = [sys.executable, "-u", "book/sphinx/build.py", "1"]
     environment = {name: value for name, value in (os.environ | variables).items() if value is not None}
-    with (root / "output").open("w") as output:
+    with (root / "output").open("w", encoding="utf-8") as output:
         return subprocess.Popen(
             command, cwd=root, env=environment, stdout=output, stderr=subprocess.STDOUT, start_new_session=True
         )
@@ -114,4 +114,5 @@ def build(root, patience=300, **variables):
         code = process.wait(patience)
     finally:
         process.kill()
+        process.wait()
     return code, (root / "output").read_text(encoding="utf-8", errors="replace")
