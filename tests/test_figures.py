@@ -144,14 +144,9 @@ def figure_functions():
 
 @pytest.mark.parametrize("function", list(figure_functions()))
 def test_every_figure_function_is_drawn_by_a_case(function):
-    # A file of cases draws with the module that it calls `figures`.
-    trees = {file.figures.__name__: ast.parse(Path(file.__file__).read_text(encoding="utf-8")) for file in FILES}
-    drawn = {
-        ast.unparse(node.func).replace("figures", module.rpartition(".")[2])
-        for module, tree in trees.items()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call)
-    }
+    case = Path(cases.__path__[0], function.partition(".")[0]).with_suffix(".py")
+    calls = [node for node in ast.walk(ast.parse(case.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)]
+    drawn = {ast.unparse(call.func).replace("figures.", f"{case.stem}.") for call in calls}
     assert function in drawn
 
 

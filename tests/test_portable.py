@@ -192,3 +192,20 @@ def test_packages_that_are_not_those_of_the_pins_are_named():
     wrong, missing = pins.changed(lines)
     assert wrong.startswith("numpy is ") and wrong.endswith("pinned ==0.1")
     assert missing == "no-such-package-anywhere is missing, pinned ==1.0"
+
+
+def test_a_browser_that_is_not_there_is_said_in_one_sentence(tmp_path):
+    commands = ["-m", "pytest", "tests/browser", "-p", "no:cacheprovider"], ["tools/pdf.py"]
+    for variables, sentence in (
+        ({"CHROMIUM": "/no/such/program"}, "CHROMIUM = '/no/such/program': there is no such program\n"),
+        ({"CHROMIUM": None, "PATH": str(tmp_path)}, "no Chromium found: `apt-get install chromium`, or name one"),
+    ):
+        environment = {name: value for name, value in (os.environ | variables).items() if value is not None}
+        for command in commands:
+            done = subprocess.run(
+                [sys.executable, *command],
+                cwd=ROOT, env=environment, capture_output=True, encoding="utf-8", timeout=120,
+            )  # what, and how  # fmt: skip
+            said = done.stdout + done.stderr
+            assert done.returncode != 0
+            assert said.removeprefix("ERROR: ").startswith(sentence) and said.strip().count("\n") == 0, said

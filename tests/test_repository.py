@@ -2,6 +2,9 @@
 
 import os
 import re
+import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -15,48 +18,129 @@ each_workflow = pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path
 
 
 def pythons():
-    """The versions that pyproject.toml allows: ">=3.11,<3.14" are 3.11, 3.12 and 3.13."""
-    first, end = map(int, re.fullmatch(r">=3\.(\d+),<3\.(\d+)", PROJECT["requires-python"]).groups())
-    return [f"3.{minor}" for minor in range(first, end)]
+    """The versions that are tested, as the classifiers of pyproject.toml name them: "3.11" and so on."""
+    named = "Programming Language :: Python :: "
+    return [line.removeprefix(named) for line in PROJECT["classifiers"] if line.startswith(named)]
 
 
-def steps(path):
-    (job,) = yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"].values()
+def jobs(path):
+    return yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"]
+
+
+def main_job(path):
+    """The job that does what .ci/run does: all there is but for the one elsewhere."""
+    (job,) = [job for name, job in jobs(path).items() if name != "elsewhere"]
     return job, job["steps"]
 
 
 def python_of(path):
-    (version,) = [step["with"]["python-version"] for step in steps(path)[1] if "python-version" in step.get("with", {})]
+    (version,) = [
+        step["with"]["python-version"] for step in main_job(path)[1] if "python-version" in step.get("with", {})
+    ]
     return version
 
 
 @each_workflow
 def test_a_workflow_runs_the_commands_of_the_local_check_and_no_others(path):
-    local = [
-        line for line in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines() if line.startswith("make ")
-    ]
-    assert [step["run"] for step in steps(path)[1] if "run" in step] == local == ["make lint test book check-book"]
+    lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    local = [line for line in lines if line.startswith("make ")]
+    assert [step["run"] for step in main_job(path)[1] if "run" in step] == local == ["make lint test book check-book"]
 
 
-def test_workflows_test_every_python_that_the_project_allows_and_publish_from_one():
-    job, _ = steps(ROOT / ".github" / "workflows" / "ci.yml")
+def test_a_job_of_its_own_runs_the_core_where_strangers_work():
+    steps = jobs(ROOT / ".github" / "workflows" / "ci.yml")["elsewhere"]["steps"]
+    assert [step["run"] for step in steps if "run" in step] == ["make elsewhere"]
+
+
+def test_workflows_test_every_python_that_the_project_names_and_publish_from_one():
+    job, _ = main_job(ROOT / ".github" / "workflows" / "ci.yml")
     assert job["strategy"]["matrix"]["python"] == pythons()
     assert python_of(ROOT / ".github" / "workflows" / "ci.yml") == "${{ matrix.python }}"
     assert python_of(ROOT / ".github" / "workflows" / "publish.yml") in pythons()
 
 
+def test_the_tested_pythons_are_the_same_wherever_they_are_named_and_a_newer_one_is_not_refused():
+    oldest, newest = pythons()[0], pythons()[-1]
+    assert PROJECT["requires-python"] == f">={oldest}"
+    assert [int(version.split(".")[1]) for version in pythons()] == list(range(11, 11 + len(pythons())))
+    text = {
+        name: (ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "environment.txt", "pyproject.toml")
+    }
+    text["about"] = (ROOT / "chapters" / "about.md").read_text(encoding="utf-8")
+    for name in ("README.md", "environment.txt", "about"):
+        assert f"Python {oldest} to {newest}" in text[name], name
+        assert set(re.findall(r"Python (3\.\d+)", text[name])) <= {oldest}, name
+    assert f'target-version = "py{oldest.replace(".", "")}"' in text["pyproject.toml"]
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="no make here")
+@pytest.mark.parametrize(
+    ("minor", "refused", "said"), [(10, True, "is needed"), (12, False, ""), (99, False, "untested")]
+)
+def test_make_refuses_an_older_python_says_that_a_newer_one_is_untested_and_goes_on(minor, refused, said, tmp_path):
+    """With a Python that only claims its version, on a copy that has nothing else: it ends where it would install."""
+    for name in ("Makefile", "pyproject.toml", "environment.txt"):
+        shutil.copy(ROOT / name, tmp_path / name)
+    claims = f"import sys\nsys.version_info = (3, {minor}, 0, 'final', 0)\nexec(sys.argv.pop(1))\n"
+    (tmp_path / "claims.py").write_text(claims, encoding="utf-8")
+    script = f'#!/bin/sh\n[ "$1" = -c ] || exit 7\nshift\nexec "{sys.executable}" "{tmp_path}/claims.py" "$@"\n'
+    (tmp_path / "fake").write_text(script, encoding="utf-8")
+    (tmp_path / "fake").chmod(0o755)
+    done = subprocess.run(
+        ["make", ".venv/ready", "PYTHON=./fake"], cwd=tmp_path, capture_output=True, encoding="utf-8", timeout=60
+    )
+    text = done.stdout + done.stderr
+    assert said in text and ("Making .venv" in text) != refused, text
+    assert ("untested" in text) == (said == "untested"), text
+
+
+def plain_commands():
+    """The README's commands for a machine without make."""
+    block = re.search(
+        r"\*\*Without make\*\*.*?\n\n((?:    .*\n)+)", (ROOT / "README.md").read_text(encoding="utf-8"), re.S
+    )
+    return [line.strip() for line in block[1].strip().splitlines()]
+
+
+def test_the_plain_commands_install_what_make_installs_and_build_and_test_the_same():
+    """That the book they build is the same: test_strange_builds.py."""
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    venv, activate, install, build, test = plain_commands()
+    assert venv == "python3 -m venv .venv" and "-m venv .venv" in makefile
+    assert activate == ". .venv/bin/activate"
+    assert install == "pip install -r environment.txt" and "$(INSTALL) -r environment.txt" in makefile
+    assert build == "jupyter-book build ." and f"{build} -W -n --keep-going" in (ROOT / "README.md").read_text(
+        encoding="utf-8"
+    )
+    assert test == "pytest" and "$(BIN)/python -m pytest --numprocesses=2" in makefile
+
+
+def test_make_lint_looks_at_every_file_of_the_project_and_at_nothing_of_the_readers():
+    listed = re.search(r"^SOURCES := (.*)$", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)[1].split()
+    ours = {path.relative_to(ROOT).parts[0] for path in ROOT.rglob("*.py") if not path.is_relative_to(ROOT / "_build")}
+    hidden = {name for name in ours if name.startswith(".") or name == "build"}
+    assert {name for name in ours if (ROOT / name).is_dir()} - hidden <= set(listed)
+
+
+def test_what_make_and_pip_leave_is_known_to_git_and_to_make_clean():
+    ignored = (ROOT / ".gitignore").read_text(encoding="utf-8").split()
+    clean = re.search(r"^clean:\n\trm -rf (.*)$", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)[1].split()
+    for name in ("_build", "build", "*.egg-info"):
+        assert f"{name}/" in ignored and name in clean
+
+
 @each_workflow
 def test_a_workflow_pins_its_actions_its_machine_and_what_it_may_do(path):
-    job, all_steps = steps(path)
-    for step in all_steps:
-        assert "run" in step or re.fullmatch(r"actions/[\w-]+@[0-9a-f]{40}", step["uses"]), step
-    assert re.fullmatch(r"ubuntu-\d\d\.\d\d", job["runs-on"])
-    assert job["timeout-minutes"] <= 60
+    for job in jobs(path).values():
+        for step in job["steps"]:
+            assert "run" in step or re.fullmatch(r"actions/[\w-]+@[0-9a-f]{40}", step["uses"]), step
+        assert re.fullmatch(r"ubuntu-\d\d\.\d\d", job["runs-on"])
+        assert job["timeout-minutes"] <= 60
     assert yaml.safe_load(path.read_text(encoding="utf-8"))["permissions"]["contents"] == "read"
 
 
 def test_the_published_folder_is_the_one_that_the_book_is_built_into():
-    _, all_steps = steps(ROOT / ".github" / "workflows" / "publish.yml")
+    _, all_steps = main_job(ROOT / ".github" / "workflows" / "publish.yml")
     (folder,) = [step["with"]["path"] for step in all_steps if "upload-pages" in step.get("uses", "")]
     assert folder == "_build/html"
     assert f"{folder}/" in (ROOT / "chapters" / "about.md").read_text(encoding="utf-8")

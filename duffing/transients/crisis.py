@@ -15,7 +15,6 @@ from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate, stroboscopic_times
 from ..orbits.periodic import half_return, periodic_orbit, periodic_orbits
-from ..oscillator import Duffing
 
 TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}
 REACH = 0.25  # from the large saddle orbit within which its linear coordinate is used
@@ -99,7 +98,7 @@ def _heights(osc, found, share, periods, options):
     n, m = share.shape
     step = _LAUNCH * found.multipliers[0, :, None] ** (2 * share)  # a forcing period is two half maps
     start = found.inner[:, :, None] + found.unstable[:, :, None] * step
-    wide = Duffing(*np.repeat(osc.columns(), m, axis=1))
+    wide = osc.repeated(m)
     t = stroboscopic_times(wide, checks.count("periods", periods))
     path = integrate(wide, start.reshape(2, -1), t, **options).states
     away = path.reshape(2, periods + 1, n, m) - found.outer[:, None, :, None]
@@ -123,8 +122,8 @@ def crisis(osc, lower, upper, outer, steps=9, **options):
     )
     ends = []
     for mu in (lower, upper):
-        found = saddles(_at(osc, mu), outer)
-        ends.append(edge_distance(_at(osc, mu), found, **options))
+        found = saddles(osc.members(mu=mu), outer)
+        ends.append(edge_distance(osc.members(mu=mu), found, **options))
     wrong = ~((ends[0] > 0) & (ends[1] < 0))
     if wrong.any():
         bad = int(np.argmax(wrong))
@@ -133,16 +132,10 @@ def crisis(osc, lower, upper, outer, steps=9, **options):
         )
     for _ in range(checks.count("steps", steps)):
         middle = (lower + upper) / 2
-        found = saddles(_at(osc, middle), found.outer)
-        inside = edge_distance(_at(osc, middle), found, **options) > 0
+        found = saddles(osc.members(mu=middle), found.outer)
+        inside = edge_distance(osc.members(mu=middle), found, **options) > 0
         lower, upper = np.where(inside, middle, lower), np.where(inside, upper, middle)
     return (lower + upper) / 2
-
-
-def _at(osc, mu):
-    columns = osc.columns()
-    columns[2] = mu
-    return Duffing(*columns)
 
 
 def _eigenvector(matrices):
