@@ -1,5 +1,5 @@
 # make book | test | check | check-book | proof | lab | pdf | archive | maps | window | bench | lint | clean,
-# and for the maintainer: make reproducible | mutants | elsewhere | record | environment | baselines | headline
+# and for the maintainer: make reproducible | mutants | elsewhere | slow | record | environment | baselines | headline
 # Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
 # The same without make: the README's plain commands.
 PYTHON ?= python3
@@ -35,7 +35,7 @@ ifeq ($(origin PYTHON),command line)
 $(shell [ "$$($(BIN)/python -V 2>&1)" = "$$($(PYTHON) -V 2>&1)" ] || rm -f $(READY) .venv/installed)
 endif
 
-.PHONY: book test check check-book proof lab bench record maps window reproducible mutants elsewhere pdf archive lint clean \
+.PHONY: book test check slow check-book proof lab bench record maps window reproducible mutants elsewhere pdf archive lint clean \
     environment baselines headline
 
 book: $(READY)
@@ -47,6 +47,10 @@ test: $(READY)
 # The core of the tests: a minute or two.
 check: $(READY)
 	$(BIN)/python -m pytest --numprocesses=2 --dist=loadfile -m "not slow"
+
+# Which tests are slow, after a change that made some so: as measured by the last `make test`.
+slow: $(READY)
+	$(BIN)/python book/sphinx/run_report.py
 
 # The theorem, proved by ball arithmetic.
 proof: $(READY)

@@ -38,7 +38,7 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(items):
-    slow = (BOOK / "tests" / "slow.txt").read_text(encoding="utf-8").splitlines()
+    slow = (BOOK / "tools" / "slow_tests.txt").read_text(encoding="utf-8").split()
     for item in items:
         if item.nodeid.partition("[")[0] in slow:
             item.add_marker("slow")

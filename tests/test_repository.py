@@ -94,10 +94,36 @@ def test_make_refuses_an_older_python_says_that_a_newer_one_is_untested_and_goes
     assert ("untested" in text) == (said == "untested"), text
 
 
+@pytest.mark.skipif(not shutil.which("make"), reason="no make here")
+def test_an_environment_that_was_made_at_another_place_or_with_another_python_is_made_anew(tmp_path):
+    first, copy, moved = (tmp_path / name for name in ("a checkout", "a copy", "moved"))
+    (first / ".venv" / "bin").mkdir(parents=True)
+    shutil.copy(ROOT / "Makefile", first)
+    for name in ("ready", "installed"):
+        (first / ".venv" / name).touch()
+    (first / ".venv" / "place").write_text(f"{first}\n", encoding="utf-8")
+    (first / ".venv" / "bin" / "python").symlink_to(sys.executable)
+
+    def ready_after(folder, *more):
+        subprocess.run(["make", "clean", *more], cwd=folder, check=True, capture_output=True, timeout=60)
+        return (folder / ".venv" / "ready").exists()
+
+    shutil.copytree(first, copy, symlinks=True)
+    assert ready_after(first) and not ready_after(copy)
+    assert ready_after(first, f"PYTHON={sys.executable}")
+    (first / "other").write_text("#!/bin/sh\necho Python 3.1\n", encoding="utf-8")
+    (first / "other").chmod(0o755)
+    first.rename(moved)
+    assert not ready_after(moved)
+    (moved / ".venv" / "place").write_text(f"{moved}\n", encoding="utf-8")
+    (moved / ".venv" / "ready").touch()
+    assert ready_after(moved) and not ready_after(moved, "PYTHON=./other")
+
+
 def plain_commands():
     """The README's commands for a machine without make."""
     block = re.search(
-        r"\*\*Without make\*\*.*?\n\n((?:    .*\n)+)", (ROOT / "README.md").read_text(encoding="utf-8"), re.S
+        r"\*\*Without make\*\*.*?\n\n((?:    [^\n]*\n)+)", (ROOT / "README.md").read_text(encoding="utf-8"), re.S
     )
     return [line.strip() for line in block[1].strip().splitlines()]
 
@@ -199,3 +225,9 @@ def test_both_licences_are_there_and_the_book_names_them():
         assert f"\nSection {number} -- " in text
     address = "https://creativecommons.org/licenses/by/4.0/"
     assert address in text and address in (ROOT / "_config.yml").read_text(encoding="utf-8")
+
+
+def test_every_slow_test_that_make_check_leaves_out_exists():
+    for line in (ROOT / "tools" / "slow_tests.txt").read_text(encoding="utf-8").split():
+        file, _, name = line.partition("::")
+        assert f"def {name}(" in (ROOT / file).read_text(encoding="utf-8"), line

@@ -198,7 +198,7 @@ def test_no_personal_variable_reaches_a_kernel_and_what_lies_at_home_is_not_seen
 def test_the_suite_tests_the_package_beside_it_whatever_is_installed(tmp_path):
     """As in a copy of the checkout, with the original installed and pytest called by its name."""
     copy = tmp_path / "copy"
-    for name in ("tests/conftest.py", "tests/slow.txt", "pyproject.toml", "book/sphinx/isolation.py",
+    for name in ("tests/conftest.py", "tools/slow_tests.txt", "pyproject.toml", "book/sphinx/isolation.py",
                  "book/sphinx/run_report.py", "book/sphinx/fingerprint.py"):  # what the suite starts with  # fmt: skip
         (copy / name).parent.mkdir(parents=True, exist_ok=True)
         (copy / name).write_bytes((small_book.BOOK / name).read_bytes())

@@ -6,12 +6,14 @@ and environment. A later run of some of the tests adds to the report of the same
 
 import json
 import os
+import sys
 import time
 from collections import defaultdict
 from pathlib import Path
 
 from fingerprint import key, versions
 
+SLOW = 3.0  # seconds from which a test is slow: its time is shown, and `make check` leaves it out
 COVERS = ("duffing/**/*", "book/**/*", "proof/**/*", "tests/**/*", "environment.txt")
 WORST_FIRST = ("failed", "skipped", "passed")
 NONE = {"state": "", "when": 0.0, "versions": {}, "outcomes": {}, "durations": {}}
@@ -80,3 +82,20 @@ class Recorder:
         # Code that was edited during the run was tested in no state that has a name.
         if self.outcomes and key(self.root, COVERS) == self.state:
             save(self.root, self.state, self.outcomes, self.durations)
+
+
+def main(root, threshold=SLOW):
+    """Write the names of the slow tests, as the last run of the tests measured them: `make slow`."""
+    report = of_this_state(root)
+    if not report["durations"]:
+        sys.exit("The tests were not run on this state of the code: run `make test` first.")
+    slow = {test: seconds for test, seconds in seconds_of(report["durations"]).items() if seconds >= threshold}
+    (Path(root) / "tools" / "slow_tests.txt").write_text(
+        "".join(f"{test}\n" for test in sorted(slow)), encoding="utf-8"
+    )
+    rest = sum(report["durations"].values()) - sum(slow.values())
+    print(f"{len(slow)} slow tests take {sum(slow.values()):.0f} s, the others {rest:.0f} s")
+
+
+if __name__ == "__main__":
+    main(Path(__file__).parents[2], *map(float, sys.argv[1:]))

@@ -26,7 +26,6 @@ MARKS = {
     "skipped": ("○", "test skipped"),
     "not run": ("○", "test not run"),
 }
-SLOW = 3.0  # seconds from which a test's time is shown
 logger = logging.getLogger(__name__)
 
 
@@ -106,7 +105,7 @@ def fill(app, doctree, page):
         if kind == "outcome":
             count = f", {cases} cases" if cases > 1 else ""
             seconds = app.config.test_run["seconds"].get(test, 0.0)
-            took = f", {seconds:.0f} s" if seconds >= SLOW else ""
+            took = f", {seconds:.0f} s" if seconds >= run_report.SLOW else ""
             node += nodes.Text(f"{sign} {how}{count}{took}")
             node["classes"] += ["test-outcome", how.replace(" ", "-")]
         else:
