@@ -162,8 +162,8 @@ def test_an_equation_without_a_test_fails_the_build(book):
 class Report:
     """What pytest tells of one phase of a test."""
 
-    def __init__(self, nodeid, outcome, **more):
-        self.nodeid, self.outcome = nodeid, outcome
+    def __init__(self, nodeid, outcome, duration=0.0, **more):
+        self.nodeid, self.outcome, self.duration = nodeid, outcome, duration
         vars(self).update(more)
 
 
@@ -189,6 +189,19 @@ def test_a_test_is_as_good_as_its_worst_phase():
     recorder = record(BOOK, *(Report("a", outcome) for outcome in phases.values()), Report("b", "skipped"))
     recorder.pytest_runtest_logreport(Report("c", "passed", wasxfail="known"))
     assert recorder.outcomes == {"a": "failed", "b": "skipped", "c": "skipped"}
+
+
+def test_the_times_of_a_tests_phases_and_cases_add_up_and_the_slow_ones_are_listed(book):
+    reports = [Report("a::b[1]", "passed", 2.0), Report("a::b[1]", "passed", 0.5), Report("a::b[2]", "passed", 1.0)]
+    record(book, *reports, Report("a::c", "passed", 2.5)).pytest_sessionfinish()
+    record(book, Report("a::d", "passed", 4.0)).pytest_sessionfinish()
+    assert run_report.seconds_of(run_report.of_this_state(book)["durations"]) == {"a::b": 3.5, "a::c": 2.5, "a::d": 4.0}
+    (book / "tools").mkdir()
+    run_report.main(book)
+    assert (book / "tools" / "slow_tests.txt").read_text(encoding="utf-8").split() == ["a::b", "a::d"]
+    write(book, {"tests/new.py": ""})
+    with pytest.raises(SystemExit, match="run `make test` first"):
+        run_report.main(book)
 
 
 def test_code_that_was_edited_during_a_run_is_not_reported_as_tested(book):
