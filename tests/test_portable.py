@@ -3,6 +3,7 @@
 import ast
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -209,3 +210,9 @@ def test_a_browser_that_is_not_there_is_said_in_one_sentence(tmp_path):
             said = done.stdout + done.stderr
             assert done.returncode != 0
             assert said.removeprefix("ERROR: ").startswith(sentence) and said.strip().count("\n") == 0, said
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "chapters").glob("*.md")), ids=lambda path: path.stem)
+def test_a_chapter_runs_in_any_folder_it_names_no_file_by_a_relative_path(path):
+    cells = re.findall(r"^```\{code-cell\}.*?\n(.*?)^```", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    assert [line for cell in cells for line in cell.splitlines() if re.search(r"""["']\.{1,2}/""", line)] == []
