@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 import tomllib
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -149,24 +150,6 @@ def pythons():
     return found
 
 
-class Table:
-    """The rows, printed as they come, and whether all went well."""
-
-    def __init__(self):
-        self.failed = []
-
-    def row(self, name, results, seconds):
-        words = [{True: "passed", False: "FAILED"}.get(ok, ok) for ok, _ in results]
-        print(f"{name:34} {words[0]:10} {words[1] if len(words) > 1 else '':10} {seconds:6.0f} s", flush=True)
-        for ok, said in results:
-            if ok is False:
-                self.failed.append(name)
-                print("    " + "\n    ".join(said.rstrip().splitlines()[-40:]), flush=True)
-
-    def missing(self, name, reason):
-        print(f"{name:34} not tried: {reason}", flush=True)
-
-
 def both(python, place, checkout, tests, book):
     """The tests and the small book in one environment."""
     shutil.rmtree(checkout / "_build", ignore_errors=True)
@@ -222,41 +205,43 @@ def beside_a_wheel(checkout, folder):
     return results
 
 
+def rows(folder, checkout, tests):
+    """(name, what is missing for it, a function that runs it and returns (went well, said) twice) of each environment."""
+    for place in places(folder):
+        yield place.name, place.missing, partial(both, sys.executable, place, checkout, tests, folder / "book")
+    for version, python in pythons().items():
+        missing = "" if python else "not installed here"
+        yield f"Python {version}", missing, partial(in_another_python, python, checkout, tests, folder)
+    yield "notebooks beside a wheel", "", partial(beside_a_wheel, checkout, folder)
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     options.add_argument("names", nargs="*", help="words of the names of the environments")
     options.add_argument(
         "--tests", nargs="+", default=["-m", "not slow"], help="tests instead of all that are not slow"
     )
-    given = options.parse_args()
-    table = Table()
-    wanted = lambda name: not given.names or any(word in name for word in given.names)  # noqa: E731 - used here alone
+    given, failed = options.parse_args(), []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         folder.chmod(0o777)
         (folder / "checkout").mkdir()
         checkout = copied(folder / "checkout")
-        print(f"{'where':34} {'tests':10} {'book':10}")
-        for place in places(folder):
-            if wanted(place.name):
-                if place.missing:
-                    table.missing(place.name, place.missing)
-                else:
-                    start = time.monotonic()
-                    results = both(sys.executable, place, checkout, given.tests, folder / "book")
-                    table.row(place.name, results, time.monotonic() - start)
-        for version, python in pythons().items():
-            if wanted(f"Python {version}"):
-                if python is None:
-                    table.missing(f"Python {version}", "not installed here")
-                else:
-                    start = time.monotonic()
-                    results = in_another_python(python, checkout, given.tests, folder)
-                    table.row(f"Python {version}", results, time.monotonic() - start)
-        if wanted("notebooks beside a wheel"):
+        print(f"{'where':34} {'tests':8} {'book':8}")
+        for name, missing, run_all in rows(folder, checkout, given.tests):
+            if given.names and not any(word in name for word in given.names):
+                continue
+            if missing:
+                print(f"{name:34} not tried: {missing}", flush=True)
+                continue
             start = time.monotonic()
-            table.row("notebooks beside a wheel", beside_a_wheel(checkout, folder), time.monotonic() - start)
-    sys.exit(f"failed: {', '.join(dict.fromkeys(table.failed))}" if table.failed else None)
+            results = run_all()
+            words = "".join(f"{'passed' if well else 'FAILED':9}" for well, _ in results)
+            print(f"{name:34} {words:18} {time.monotonic() - start:5.0f} s", flush=True)
+            for said in [said for well, said in results if not well]:
+                failed.append(name)
+                print("    " + "\n    ".join(said.rstrip().splitlines()[-40:]), flush=True)
+    sys.exit(f"failed: {', '.join(dict.fromkeys(failed))}" if failed else None)
 
 
 if __name__ == "__main__":
