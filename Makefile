@@ -1,5 +1,5 @@
-# make book | test | check | check-book | proof | lab | pdf | archive | maps | window | bench | lint | clean,
-# and for the maintainer: make reproducible | mutants | elsewhere | slow | record | environment | baselines | headline
+# make book | test | check | check-book | proof | lab | pdf | archive | maps | bench | lint | clean,
+# and for the maintainer: make reproducible | mutants | elsewhere | slow | record | environment | baselines
 # Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
 # The same without make: the README's plain commands.
 PYTHON ?= python3
@@ -35,8 +35,8 @@ ifeq ($(origin PYTHON),command line)
 $(shell [ "$$($(BIN)/python -V 2>&1)" = "$$($(PYTHON) -V 2>&1)" ] || rm -f $(READY) .venv/installed)
 endif
 
-.PHONY: book test check slow check-book proof lab bench record maps window reproducible mutants elsewhere pdf archive lint clean \
-    environment baselines headline
+.PHONY: book test check slow check-book proof lab bench record maps reproducible mutants elsewhere pdf archive lint clean \
+    environment baselines
 
 book: $(READY)
 	@$(BIN)/python book/sphinx/build.py $(JOBS)
@@ -62,7 +62,6 @@ lab: $(READY)
 # Side by side with other packages, which have an environment of their own; `make bench QUICK=--quick` for a first look.
 bench: $(BENCH)/ready
 	$(BENCH)/bin/python -m benchmarks $(QUICK)
-	$(BENCH)/bin/python benchmarks/scale.py
 
 # The dated measurement that the chapter on speed shows.
 record: $(BENCH)/ready
@@ -79,11 +78,10 @@ pdf: book
 archive: book
 	$(BIN)/python tools/archive.py
 
-# Planes and basins at full resolution into _build/maps: hours on two cores; an interrupted run goes on where it was.
+# Planes, basins and transients at full resolution into _build/maps: hours on two cores; an interrupted run goes on where
+# it was. `make maps WHAT=window`: the window of chaos from 200 starts, some minutes; WHAT=headline: the README's picture.
 maps: $(READY)
-	$(BIN)/python tools/maps.py
-	$(BIN)/python tools/maps_basins.py 512
-	$(BIN)/python tools/maps_transients.py
+	$(BIN)/python tools/maps.py $(WHAT)
 
 # Two runs of the chapters, on one thread and on several: the same numbers bit for bit.
 reproducible: $(READY)
@@ -96,14 +94,6 @@ mutants: $(READY)
 # The core of the tests and a small book as strangers would run them: no home, other settings, one processor, no network.
 elsewhere: $(READY)
 	$(BIN)/python tools/elsewhere.py
-
-# The window of chaos from 200 starts instead of the book's 32: some minutes.
-window: $(READY)
-	$(BIN)/python tools/window.py
-
-# The picture in the README.
-headline: $(READY)
-	$(BIN)/python tools/headline.py
 
 # The project's own files: what a reader keeps beside them is his own affair.
 SOURCES := benchmarks book duffing proof tests tools

@@ -206,7 +206,7 @@ def beside_a_wheel(checkout, folder):
 
 
 def rows(folder, checkout, tests):
-    """(name, what is missing for it, a function that runs it and returns (went well, said) twice) of each environment."""
+    """(name, what is missing, a function that runs all there, to (went well, said) twice) of each environment."""
     for place in places(folder):
         yield place.name, place.missing, partial(both, sys.executable, place, checkout, tests, folder / "book")
     for version, python in pythons().items():

@@ -13,7 +13,8 @@ from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
 from . import small_p
-from .transients import between, integrator
+from .accuracy import integrator
+from .transients import between
 from .wandering import Wandering, mean_ratio, wandering
 
 P = (0.1, 0.5, 1.0, 2.0)
