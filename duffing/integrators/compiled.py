@@ -70,6 +70,16 @@ def compiled(function=None, **options):
     return numba.njit(**options)(function)
 
 
+def inlined(function):
+    """A function that becomes part of each compiled function that calls it; it cannot be called from Python."""
+    return numba.njit(forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+
+
+def inner(function):
+    """A function that compiled functions call; it cannot be called from Python, and has no place in the cache."""
+    return numba.njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+
+
 def _refused(function):
     """What stands for a compiled function where numba compiles nothing."""
 
