@@ -82,10 +82,10 @@ def alive(group):
 def test_an_interrupt_ends_the_run_and_every_process_that_it_started(kind, whom, tmp_path):
     """A terminal interrupts all processes of the group, `kill` the first alone."""
     script = tmp_path / "script.py"
-    script.write_text(SCRIPT)
+    script.write_text(SCRIPT, encoding="utf-8")
     process = subprocess.Popen(
         [sys.executable, script, kind],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, encoding="utf-8",
     )  # what, and how  # fmt: skip
     try:
         assert process.stdout.readline() == "started\n"
