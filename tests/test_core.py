@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 CORE = [*sorted((ROOT / "duffing").glob("*.py")), *sorted((ROOT / "duffing" / "integrators").glob("*.py"))]
 FIGURES = ("1a", "1b", "3a", "3b", "4a", "4b", "5a", "5b", "6a", "6b")
-# What a reader of the physics need not read: vectors, memory and a cache for numba, and the paper's numbers and sentences.
+# No physics: vectors, memory and a cache for numba. (Nor has `paper`, which is numbers and sentences.)
 MACHINERY = ("compiled", "memory", "processors", "vectors")
 MOST_OF_THE_CORE, MOST = 1550, 7000  # lines; without machinery and `paper`, and all of the package
 
