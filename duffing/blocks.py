@@ -4,12 +4,11 @@ A member's numbers do not depend on its company, so neither do they on the block
 are the work of `sweep`, which is imported when it is called for.
 """
 
-import os
-
 import numpy as np
 
 from . import checks
 from .flow import METHODS, POLICIES
+from .integrators import processors
 from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better
@@ -70,7 +69,7 @@ def over_blocks(
     """
     options = dict(options)
     threads = options.pop("threads", None)
-    here = os.cpu_count() if threads is None else checks.count("threads", threads)
+    here = processors.available() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
     lenient = checks.choice("on_failure", on_failure, POLICIES) == "nan"
     if executor is None and progress is None and checkpoint is None and not lenient:

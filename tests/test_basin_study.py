@@ -11,7 +11,7 @@ from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_ta
 from duffing.basins.basins import KINDS
 from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.basins.contact import first_contact, homoclinic_strips
-from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT
+from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT, classify
 
 RK4 = {"method": "rk4", "steps_per_period": 200}
 
@@ -59,6 +59,15 @@ def test_crowding_crossings_below_the_tangency_have_dimension_one_when_the_cells
     values, errors, number = basin_study.line_dimensions(0.5, (0.994, 0.994), most=(10_000, 40_000))
     assert number[0] == number[1]  # four times the starts find no strip more
     assert abs(values[1] - 1) <= errors[1] + 1e-12 < 0.02 < values[0] - 1
+
+
+def test_dimension_leaves_one_at_the_tangency_at_small_p():
+    """Below it the boundary crosses the line a few times, however near the tangency is; above it more often."""
+    osc = basin_study.oscillator(0.1, 1.0)
+    tangency = homoclinic_tangency(osc) / osc.mu
+    far, before, after = (basin_study.strips(0.1, f * tangency, 3000).left.size for f in (0.99, 0.998, 1.002))
+    assert far == before < 10
+    assert after > 3 * before
 
 
 def test_friction_time_fixed_steps_and_random_starts_see_the_same_dimension_at_small_p():
@@ -123,5 +132,5 @@ def test_the_section_shows_wells_chaos_and_the_large_orbit_at_small_p():
     np.testing.assert_array_equal(fates[:2, 0], [LEFT, RIGHT])
     assert IRREGULAR in fates[:, 1]
     osc = replace(basin_study.oscillator(0.1, mu=0.27), p=0.1)
-    large = basin_study.fate(osc, (1.3, 1.38), 40, last=16, **STATISTICS)
+    large = classify(osc, (1.3, 1.38), 40, last=16, **STATISTICS)
     assert large == LARGE

@@ -28,14 +28,14 @@ def test_the_cache_folder_changes_with_an_edit_of_compiled_code_and_with_no_othe
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     assert fingerprint(copy) == fingerprint()
     path = copy / f"{module}.py"
-    path.write_text(path.read_text() + "\n")
+    path.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
     assert (fingerprint(copy) != fingerprint()) == changes
 
 
 def test_every_module_with_compiled_code_counts(tmp_path):
     """A module that a kernel takes code from is compiled code itself, and says so by its imports."""
     for path in PACKAGE.rglob("*.py"):
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
         if "@compiled" in text or "njit" in text or "intrinsic" in text:
             assert "numba" in text or ".compiled import" in text, path.name
 
@@ -50,10 +50,10 @@ def test_an_edit_in_a_called_function_is_not_answered_from_the_cache(tmp_path):
 
     before = run()
     module = copy / "integrators" / "powers.py"
-    text = module.read_text()
+    text = module.read_text(encoding="utf-8")
     edited = text.replace("return take(q.table, cell) *", "return 2 * take(q.table, cell) *")
     assert edited != text
-    module.write_text(edited)
+    module.write_text(edited, encoding="utf-8")
     assert abs(run() - before) > 1e-3
 
 

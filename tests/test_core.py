@@ -49,7 +49,10 @@ def named(path):
 def run(figures, allowed):
     script = SCRIPT.format(allowed=sorted(allowed), root=str(ROOT), tests=str(ROOT / "tests"))
     return subprocess.run(
-        [sys.executable, "-c", script, *(f"fig{figure}" for figure in figures)], capture_output=True, text=True
+        [sys.executable, "-c", script, *(f"fig{figure}" for figure in figures)],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
     )
 
 

@@ -154,7 +154,7 @@ def test_a_family_of_very_many_blocks_makes_a_bounded_number_of_tasks_and_files(
     np.testing.assert_array_equal(result, marked(PLANE, starts(PLANE)))
     assert executor.handed_over == len(list((tmp_path / "kept").iterdir())) == 3
     # 15 + 15 + 10 members in blocks of at most three.
-    assert sorted(line.split()[-1] for line in log.read_text().splitlines()) == ["1", *["3"] * 13]
+    assert sorted(line.split()[-1] for line in log.read_text(encoding="utf-8").splitlines()) == ["1", *["3"] * 13]
 
 
 def test_threads_stop_between_two_blocks_of_a_task(monkeypatch):
@@ -165,8 +165,7 @@ def test_threads_stop_between_two_blocks_of_a_task(monkeypatch):
         calls.append(state.shape)
         if len(calls) == 2:
             signal.raise_signal(signal.SIGINT)  # arrives in the main thread
-            while not stopped.is_set():
-                time.sleep(1e-3)
+            stopped.wait(60)
         return state
 
     stopped = threading.Event()

@@ -139,10 +139,10 @@ MUTANTS = (
 def apply(mutant, root):
     """Put the error into the copy; returns the file's good text."""
     path = root / f"{mutant.module.replace('.', '/')}.py"
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     if text.count(mutant.good) != 1:
         raise ValueError(f"{mutant.module}: {mutant.good!r} must occur once, not {text.count(mutant.good)} times")
-    path.write_text(text.replace(mutant.good, mutant.bad))
+    path.write_text(text.replace(mutant.good, mutant.bad), encoding="utf-8")
     return path, text
 
 
@@ -152,7 +152,9 @@ def first_failure(root, files):
     # Found first, so that the installed package is not the one tested.
     environment = {**os.environ, "PYTHONPATH": str(root)}
     try:
-        run = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, timeout=PATIENCE)
+        run = subprocess.run(
+            command, cwd=root, env=environment, capture_output=True, text=True, timeout=PATIENCE, encoding="utf-8"
+        )
     except subprocess.TimeoutExpired:
         return f"the tests do not end within {PATIENCE} s"
     if run.returncode == 0:
@@ -166,7 +168,7 @@ def main(modules):
     survivors = 0
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
-        for name in subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True).splitlines():
+        for name in subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True, encoding="utf-8").splitlines():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, root / name)
         # A test that the copy fails without an error would be said to catch each.
@@ -177,7 +179,7 @@ def main(modules):
             own = f"tests/test_{mutant.module.rpartition('.')[2]}.py"
             files = mutant.tests or ((own,) if (root / own).exists() else ())
             caught = (first_failure(root, files) if files else None) or first_failure(root, SUITE)
-            path.write_text(good)
+            path.write_text(good, encoding="utf-8")
             survivors += caught is None
             print(f"{mutant.module:45} {mutant.what:50} {caught or 'SURVIVED'}", flush=True)
     print(f"{len(chosen) - survivors} of {len(chosen)} caught")

@@ -8,12 +8,12 @@ depend on the machine, on threads or on the family that a member belongs to: in 
 """
 
 import math
-import os
 
 import numpy as np
 
 from .. import checks
 from ..errors import DivergedError
+from . import processors
 from .compiled import compiled, inlined
 from .forcing import map_chunks
 from .memory import stack, views, widest_vectors
@@ -45,7 +45,7 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     state : (2,), (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing times; each interval is cut into the least number of equal steps
     tangents : 0, 1 or 2 tangent vectors, made orthonormal at every time
-    threads : at most so many at once (default: the processors)
+    threads : at most so many at once (default: the processors that the process may use)
 
     Returns
     -------
@@ -90,7 +90,7 @@ def checked(osc, state, t, steps_per_period, threads):
         t = np.stack([checks.times(column) for column in np.transpose(t)], axis=1)
     else:
         t = checks.times(t)[:, None]
-    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    threads = processors.available() if threads is None else checks.count("threads", threads)
     return columns, state, t, checks.count("steps_per_period", steps_per_period), threads
 
 
