@@ -42,7 +42,6 @@ CALLS = {
     "melnikov.damping_integral": {"osc": OSC},
     "melnikov.forcing_integral": {"osc": OSC},
     "melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
-    "manifolds.sticking.saddle_friction_time": {"osc": OSC},
     "manifolds.sticking.sticking_amplitude": {"osc": OSC},
     "manifolds.correction.tangency_correction": {"osc": Duffing(p=0.5)},
     "orbits.periodic.half_return": ORBIT,
@@ -89,9 +88,8 @@ CALLS = {
 WITHIN = {
     "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
     " switched",
-    "basins": "boundary_dimension capture changed contracted_form copies look ordered neighbourhood points_of read"
-    " returns trap",
-    "transients": "both_wells edge_distance",
+    "basins": "boundary_dimension capture changed contracted_form look ordered neighbourhood points_of read trap",
+    "transients": "both_wells edge_distance returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
 STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
@@ -188,7 +186,7 @@ def test_a_family_is_refused_where_one_oscillator_is_needed(name):
 
 # What takes no more than some seconds with any oscillator.
 ANY_OSCILLATOR = (
-    "manifolds.curves.stable_manifold", "manifolds.sticking.saddle_friction_time",
+    "manifolds.curves.stable_manifold",
     "manifolds.correction.tangency_correction",
     "orbits.periodic.periodic_orbit", "orbits.periodic.periodic_orbits", "orbits.periodic.path",
     "orbits.diagram.bifurcation_diagram", "basins.attractors.find_attractors",
@@ -220,8 +218,7 @@ def test_any_oscillator_is_answered_with_finite_numbers_or_refused(name, **param
     except ValueError as error:
         assert any(f"{parameter} = " in str(error) for parameter in parameters)
     else:
-        infinite = name == "manifolds.sticking.saddle_friction_time"  # where the orbit sticks, and then it says so
-        assert all(np.all(np.isfinite(number) | (infinite & (number == np.inf))) for number in numbers_of(result))
+        assert all(np.all(np.isfinite(number)) for number in numbers_of(result))
 
 
 def test_steps_that_are_too_long_to_be_squared_are_not_taken():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, marked, marks, starts
 
-from duffing.sweep.families import over_blocks
+from duffing.blocks import over_blocks
 
 # A run of many minutes on the executor that the command line names, or one that is not cut into blocks.
 SCRIPT = """

@@ -8,12 +8,11 @@ from sweep_cases import context
 
 from book.studies import basins as basin_study
 from book.studies import transients as transient_study
-from duffing import Duffing, poincare_section
+from duffing import Duffing, blocks, poincare_section
 from duffing.basins.attractors import find_attractors, settle
 from duffing.basins.basins import basins
 from duffing.basins.fates import fate
 from duffing.orbits.diagram import bifurcation_diagram
-from duffing.sweep import families as sweep
 from duffing.sweep.checkpoint import Checkpoint
 from duffing.transients.lifetimes import lifetimes
 
@@ -91,7 +90,7 @@ def test_a_stay_in_chaos_counts_on_over_a_search():
 @pytest.mark.parametrize("case", CASES)
 def test_in_blocks_on_threads(case, monkeypatch):
     whole, seen = case(), []
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 1e-9)  # the smallest blocks
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 1e-9)  # the smallest blocks
     _same(case(progress=lambda done, total: seen.append((done, total))), whole)
     assert len(seen) > 2 and seen[-1][0] == seen[-1][1]
 
@@ -99,14 +98,14 @@ def test_in_blocks_on_threads(case, monkeypatch):
 @pytest.mark.parametrize("case", CASES)
 def test_in_processes(case, processes, monkeypatch):
     whole = case()
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 1e-9)
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 1e-9)
     _same(case(executor=processes), whole)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_resumed_from_what_an_interrupted_run_has_kept(case, tmp_path, monkeypatch):
     whole = case()
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 1e-9)
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 1e-9)
 
     class Interrupted(Exception):
         pass

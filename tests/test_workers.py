@@ -9,9 +9,9 @@ import pytest
 from sweep_cases import PLANE, context, kills_its_worker, marked, marks, starts
 
 from duffing import Duffing
+from duffing.blocks import over_blocks
 from duffing.errors import LostWorkerError
 from duffing.sweep import workers
-from duffing.sweep.families import over_blocks
 
 
 def run(executor, mu, **more):

@@ -8,13 +8,13 @@ from duffing import paper
 from duffing.flow import integrate
 from duffing.lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from duffing.melnikov import critical_amplitude
+from duffing.paper import P_ONSET
 
 from ..remember import remembered
 from ..studies import reproduction, small_p
 from .verdicts import decide, finds
 
 FINDINGS = {}
-P_ONSET = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)  # the circles of Fig. 3b
 WEAK = (0.005, 0.01, 0.02, 0.04, 0.06, 0.08)  # "mu close to 0"
 DISTANCES = (1e-4, 1e-8)  # of the two trajectories; the paper does not give its own
 FINE = 50  # "50 times smaller" steps

@@ -13,7 +13,6 @@ from duffing.orbits.continuation import BOUND
 from duffing.orbits.diagram import bifurcation_diagram
 from duffing.orbits.followed import DRAWING, Followed, at_exponent, orbits_at
 from duffing.orbits.periodic import cycle, periodic_orbits
-from duffing.oscillator import Duffing
 
 from ..remember import remembered
 
@@ -187,9 +186,9 @@ def in_exponent(mu=0.2, low=0.1, high=3.0):
     down, up = ways
     if (down.parameter[-1], up.parameter[-1]) != (low, high):
         raise ConvergenceError(f"mu = {mu:g}: the orbit does not reach p = {low:g} and {high:g}")
-    columns, state, parameter, multipliers = (
-        joined(*(part(one) for one in ways))
-        for part in (lambda b: b.osc.columns(), lambda b: b.state, lambda b: b.parameter, lambda b: b.multipliers)
+    state, parameter, multipliers = (
+        joined(getattr(down, part), getattr(up, part)) for part in ("state", "parameter", "multipliers")
     )
-    both = OrbitBranch(Duffing(*columns), "p", up.halves, state, parameter, multipliers, BOUND)
+    family = up.osc.members(np.zeros(parameter.size, dtype=int), p=parameter)
+    both = OrbitBranch(family, "p", up.halves, state, parameter, multipliers, BOUND)
     return Followed(IN_WELL, both, tuple(bifurcations([both])[0]))

@@ -9,7 +9,6 @@ from duffing import checks, paper
 from duffing.errors import ConvergenceError
 from duffing.flow import integrate
 from duffing.lyapunov import lyapunov_spectrum, two_trajectory_exponent
-from duffing.manifolds.saddle import units
 
 from ..remember import remembered
 from . import reproduction
@@ -24,7 +23,7 @@ def starts(columns=8, rows=4, osc=paper.OSCILLATOR):
     """
     checks.double_well(osc)
     x, v = np.meshgrid(np.linspace(-1.4, 1.4, columns), np.linspace(-0.6, 0.6, rows))
-    return np.stack([x.ravel(), v.ravel()]) * units(osc)[:2, None]
+    return np.stack([x.ravel(), v.ravel()]) * osc.units()[:2, None]
 
 
 @remembered

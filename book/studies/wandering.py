@@ -11,7 +11,6 @@ import numpy as np
 
 from duffing import checks
 from duffing.flow import integrate
-from duffing.oscillator import Duffing
 from duffing.transients.lifetimes import lifetimes
 
 SINCE, UNTIL = 15, 40  # periods left out after the start and before the capture, in which the motion is already regular
@@ -44,7 +43,7 @@ def wandering(osc, starts, periods=240, method="auto", executor=None, progress=N
     """
     starts = np.asarray(starts, dtype=float)
     n, m = osc.columns().shape[1], starts.shape[1]
-    wide = Duffing(*np.repeat(osc.columns(), m, axis=1))
+    wide = osc.repeated(m)
     state = np.tile(starts, n)
     block = min(BLOCK, checks.count("periods", periods))
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
@@ -100,6 +99,6 @@ def _dissipated(wide, state, chosen, method, options):
     """Energy taken in PASSES periods from SINCE on, (N,), by the members chosen; 0 for the others."""
     taken = np.zeros(chosen.size)
     if chosen.any():
-        part = Duffing(*wide.columns()[:, chosen])
+        part = wide.members(chosen)
         taken[chosen] = dissipated_energy(part, state[:, chosen], PASSES, SINCE, method, **options)
     return taken

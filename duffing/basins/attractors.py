@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import checks
+from ..blocks import block_for, over_blocks
 from ..flow import integrate
 from ..lyapunov import lyapunov_spectrum
 from ..orbits.periodic import half_return, path, periodic_orbits
-from ..sweep.families import block_for, over_blocks
-from .capture import UNRESOLVED, capture, copies, look, points_of
+from .capture import UNRESOLVED, capture, look, points_of
 from .trapping import Trap, trap
 
 CELL = 0.02  # width of a chaotic attractor's cells in x and v
@@ -131,7 +131,7 @@ def _settle(osc, now, attractors, periods, phase, run, options):
         regions = tuple((one.period, one.region) for one in attractors)
         task = {"regions": regions, "first": first, "last": last, "start": start, **options}
         size, state = block_for(last - first, **options), np.vstack([now, streaks])
-        rows = over_blocks(capture, copies(osc, now), state, task, block=size, dwindling=True, **run)
+        rows = over_blocks(capture, osc.repeated(now.shape[1]), state, task, block=size, dwindling=True, **run)
         label, hit = rows[0].astype(int), rows[0] != UNRESOLVED
         labels[live[hit]], caught[live[hit]] = label[hit], rows[1, hit]
         live, now, streaks = live[~hit], rows[2:4, ~hit], rows[4:, ~hit]
@@ -147,7 +147,7 @@ def _unknown(osc, states, known, options):
     sample = states[:, :: -(-states.shape[1] // _SAMPLE)]
     sign = (-1.0) ** np.arange(2 * LONGEST + 1)
     half = np.arange(2 * LONGEST + 1) * osc.period / 2
-    returns = integrate(copies(osc, sample), sample, half, **options).states * sign[:, None]
+    returns = integrate(osc.repeated(sample.shape[1]), sample, half, **options).states * sign[:, None]
     distance = np.hypot(*(returns[:, 1:] - sample[:, None]))
     # The first near return may be to an orbit that has just doubled its period, the nearest to one not yet doubled.
     least = distance.min(axis=0)
@@ -170,8 +170,8 @@ def _mirrored(osc, state, multipliers, halves, options):
     for point in (state, half_return(osc, state, 1).image[:, 0])[: 1 + (halves % 2 == 0)]:
 
         def follow(states, repeats):
-            t = np.array([0.0, repeats * halves * osc.period / 2])
-            return (-1) ** (repeats * halves) * integrate(copies(osc, states), states, t, **options).states[:, 1]
+            family, t = osc.repeated(states.shape[1]), np.array([0.0, repeats * halves * osc.period / 2])
+            return (-1) ** (repeats * halves) * integrate(family, states, t, **options).states[:, 1]
 
         region = trap(follow, point, half_return(osc, point, halves).derivative[:, :, 0])
         if region is not None:
@@ -188,11 +188,11 @@ def _chaotic(osc, states, known, options):
     regions = [(one.period, one.region) for one in known]
     if np.any(look(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED):
         return ()
-    spectrum = lyapunov_spectrum(copies(osc, sample), sample, periods=200, transient=0, k=1, **options)
+    spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=200, transient=0, k=1, **options)
     if np.any(spectrum.exponents <= 3 * spectrum.error):
         return ()
-    half = integrate(copies(osc, sample), sample, np.linspace(0, 10, 161) * osc.period, **options).states
-    mirror = -integrate(copies(osc, sample), sample, np.array([0.0, osc.period / 2]), **options).states[:, 1]
+    half = integrate(osc.repeated(sample.shape[1]), sample, np.linspace(0, 10, 161) * osc.period, **options).states
+    mirror = -integrate(osc.repeated(sample.shape[1]), sample, np.array([0.0, osc.period / 2]), **options).states[:, 1]
     points = np.concatenate([points, points_of(osc, mirror, _PROOF, options)], axis=2)
     places = [_place(x) for x in half[0].T]
     places = np.array(places + [{"left": "right", "right": "left"}.get(place, place) for place in places])

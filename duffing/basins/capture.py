@@ -4,12 +4,9 @@ A periodic attractor has caught a state that lies in its disk, a chaotic one a s
 it visits for STREAK periods on end. Of an attractor only this region and its period count here.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from ..flow import integrate
-from ..oscillator import Duffing
 
 UNRESOLVED = -1
 STREAK = 20  # periods on end in a chaotic attractor's cells
@@ -22,7 +19,7 @@ def capture(osc, state, regions, first, last, start, **options):
     state : x, v at the time `start` before the period 0, later at phase 0, and a streak for each region
     regions : (period, Trap or Cells) of each attractor
     """
-    one, size = Duffing(*osc.columns()[:, 0]), state.shape[1]
+    one, size = osc.members(0), state.shape[1]
     result = np.array([np.full(size, UNRESOLVED), np.full(size, np.inf), *state])
     live, done = np.arange(size), first
     points = _to_phase_zero(one, state[:2], start, options)[:, None] if first == 0 else None
@@ -54,17 +51,12 @@ def look(regions, points, streaks):
     return label, when, streaks
 
 
-def copies(osc, states):
-    """A family of one oscillator for so many states (2, n)."""
-    return replace(osc, mu=np.full(states.shape[1], osc.mu))
-
-
 def points_of(osc, states, periods, options):
     """States (2, periods + 1, n) at each phase 0, from the present one on."""
-    return integrate(copies(osc, states), states, np.arange(periods + 1) * osc.period, **options).states
+    return integrate(osc.repeated(states.shape[1]), states, np.arange(periods + 1) * osc.period, **options).states
 
 
 def _to_phase_zero(osc, states, start, options):
     if start == 0:
         return states
-    return integrate(copies(osc, states), states, np.array([start, osc.period]), **options).states[:, 1]
+    return integrate(osc.repeated(states.shape[1]), states, np.array([start, osc.period]), **options).states[:, 1]

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from .. import checks
+from ..blocks import block_for, over_blocks
 from ..flow import integrate
-from ..sweep.families import block_for, over_blocks
 
 LEFT, RIGHT, LARGE, IRREGULAR = range(4)
 NAMES = ("left well", "right well", "large orbit", "irregular")

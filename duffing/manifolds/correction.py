@@ -15,8 +15,8 @@ in log(alpha). Half a forcing period exchanges the two, so its period is pi sqrt
 
 import numpy as np
 
+from .. import checks
 from ..melnikov import critical_amplitude, damping_integral
-from .saddle import unit_members
 
 _NODES = 200_001
 
@@ -27,7 +27,7 @@ def tangency_correction(osc):
     To about 1e-4 of it, by the trapezoidal rule. Raises ValueError unless delta < 0 < gamma, 0.05 <= p <= 0.95 and
     0 < alpha < 1.
     """
-    unit = unit_members(osc)
+    unit = checks.model(osc).dimensionless().members()
     if np.any(unit.p < 0.05) or np.any(unit.p > 0.95):
         raise ValueError(f"p = {osc.p}: must be in [0.05, 0.95], where the integral of the correction can be computed")
     if np.any(unit.alpha <= 0) or np.any(unit.alpha >= 1):

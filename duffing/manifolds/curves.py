@@ -13,8 +13,7 @@ import numpy as np
 from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate
-from ..oscillator import Duffing
-from .saddle import saddle_frame, units
+from .saddle import saddle_frame
 
 UNSTABLE, STABLE = 0, 1
 DISTANCE = 1e-6  # of the launch from the saddle orbit, in the unit of length sqrt(-delta/gamma)
@@ -85,7 +84,7 @@ def _curve(osc, kind, side, length, phase, spacing, turn):
             raise ConvergenceError(f"length = {length}: the branch is {total:.4g} long and goes into an attractor")
     _, curve = _refined(flight, curve, points_at, spacing, turn)  # across the joints of the pieces
     keep = np.append(0, np.hypot(*np.diff(curve)).cumsum()) <= length
-    return curve[:, keep] * units(osc)[:2, None]
+    return curve[:, keep] * osc.units()[:2, None]
 
 
 def _refined(flight, curve, points_at, spacing, turn):
@@ -111,6 +110,6 @@ def _points(frame, kind, side, section, flight):
     moving = start != section
     times = np.array([start[moving], np.full(moving.sum(), section)])
     if moving.any():
-        family = Duffing(*np.repeat(frame.osc.columns(), moving.sum(), axis=1))
+        family = frame.osc.repeated(moving.sum())
         points[:, moving] = integrate(family, points[:, moving], times).states[:, 1]
     return points

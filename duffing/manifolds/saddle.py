@@ -44,7 +44,7 @@ def saddle_orbit(osc):
     the stroboscopic map is not invertible there), is not a saddle between the wells, or was not found.
     """
     frame = saddle_frame(osc)
-    scale = units(osc)[:2]
+    scale = osc.units()[:2]
     directions = frame.directions[:, :, 0].reshape(2, 2, *osc.shape) * scale
     directions /= np.hypot(directions[:, 0], directions[:, 1])[:, None]
     multipliers = np.exp(frame.growth.sum(axis=1)).reshape(2, *osc.shape)
@@ -53,7 +53,7 @@ def saddle_orbit(osc):
 
 def saddle_frame(osc):
     """The Frame of the family's saddle orbits; errors as for `saddle_orbit`."""
-    unit = unit_members(osc)
+    unit = checks.model(osc).dimensionless().members()
     _refuse(osc, at_rest(unit), "for p < 1 it is at rest at mu = 0, and the damping has no linearisation at v = 0")
     (t, states, maps, friction_time), found = central_orbit(unit)
     _refuse(osc, ~found, _NOT_FOUND)
@@ -79,18 +79,6 @@ def saddle_frame(osc):
         np.concatenate([directions, directions], axis=2),
         np.concatenate([growth, growth], axis=1),
     )
-
-
-def unit_members(osc):
-    """The family as N members with delta = -1, gamma = 1; raises ValueError unless delta < 0 < gamma."""
-    checks.double_well(osc)
-    return Duffing(*osc.dimensionless().columns())
-
-
-def units(osc):
-    """Units (3, *family) of length, velocity and forcing for which delta = -1, gamma = 1."""
-    stiffness, cubic = (np.broadcast_to(value, osc.shape) for value in (-osc.delta, osc.gamma))
-    return np.array([np.sqrt(stiffness / cubic), stiffness / np.sqrt(cubic), stiffness**1.5 / np.sqrt(cubic)])
 
 
 def at_rest(unit):
@@ -136,11 +124,5 @@ def _refuse(osc, members, reason):
     """Raise NoSaddleOrbitError, naming the first of the members (N,) marked."""
     marked = np.flatnonzero(members)
     if marked.size:
-        member = names(osc, marked[0])
+        member = osc.named(marked[0])
         raise NoSaddleOrbitError(f"no hyperbolic saddle orbit for {member} ({marked.size} such members): {reason}")
-
-
-def names(osc, member):
-    """The parameters of one member of a family, in words."""
-    fields = ("alpha", "p", "mu", "omega", "delta", "gamma")
-    return ", ".join(f"{name} = {value:g}" for name, value in zip(fields, osc.columns()[:, member], strict=True))

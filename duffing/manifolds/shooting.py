@@ -6,13 +6,13 @@ is enough, cut into segments over which the flow stretches moderately: over a wh
 exp(2 pi / omega), a factor 10^27 at omega = 0.1. All here is dimensionless: delta = -1, gamma = 1.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import scipy.special
 
 from ..flow import integrate
-from ..oscillator import Duffing
 
 _SEGMENT = 1.0  # longest segment: the time in which the saddle point stretches by e
 _TOLERANCE = {"rtol": 1e-12, "atol": 1e-14}
@@ -44,7 +44,7 @@ def central_orbit(unit):
     states, found = _newton(unit, t, linear_response(unit, t[:-1]))
     if not found.all():
         lost = ~found
-        states[:, :, lost], found[lost] = _continuation(unit.columns()[:, lost], t[:, lost])
+        states[:, :, lost], found[lost] = _continuation(unit.members(lost), t[:, lost])
     return Segments(t, states, *_shoot(unit, t, states)[1:]), found
 
 
@@ -66,11 +66,11 @@ def linear_response(unit, t):
     return np.array([x.real, (1j * unit.omega * x).real])
 
 
-def _continuation(columns, t):
+def _continuation(unit, t):
     """States (2, m, n) and found (n,) from the same orbit at 1/16, 2/16, ... of the forcing."""
     states = None
     for k in range(1, 17):
-        part = Duffing(*columns[:2], columns[2] * k / 16, *columns[3:])
+        part = replace(unit, mu=unit.mu * k / 16)
         states = linear_response(part, t[:-1]) if states is None else states * k / (k - 1)
         states, found = _newton(part, t, states)
         if not found.any():
@@ -101,7 +101,7 @@ def _newton(unit, t, states):
 def _shoot(unit, t, states):
     """Gap (2, m, N) between each segment's end and the next node, tangent maps and friction times of the segments."""
     segments, size = states.shape[1:]
-    tiled = Duffing(*np.tile(unit.columns(), segments))
+    tiled = unit.members(np.tile(np.arange(size), segments))
     times = np.array([t[:-1].ravel(), t[1:].ravel()])
     orbit = integrate(tiled, states.reshape(2, -1), times, tangents=2, **_TOLERANCE)
     following = np.concatenate([states[:, 1:], -states[:, :1]], axis=1)

@@ -6,6 +6,8 @@ and mu it is the Melnikov function M(t0), omega t0 = phase, divided by dH0/dx at
 beyond the bottom of the well only, so that no turning point of the slow departure from the saddle orbit is mistaken.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from .. import checks
@@ -14,7 +16,7 @@ from ..integrators.friction_time.turning_points import to_turning_point
 from ..melnikov import critical_amplitude, forcing_integral
 from ..oscillator import Duffing
 from .curves import DISTANCE, STABLE, UNSTABLE, launch
-from .saddle import names, saddle_frame, unit_members, units
+from .saddle import saddle_frame
 
 _LAUNCHES = 32  # of W^U, all round, to make sure that the splitting found is the greatest
 _ATTEMPTS = 60  # each of them, or the next, halves the bracket
@@ -38,7 +40,7 @@ def splitting(osc, phase):
     phase = np.mod(phase, 2 * np.pi)
     frame = saddle_frame(osc)
     values, _ = _split(frame, np.repeat(phase.reshape(-1, 1), frame.osc.mu.size, axis=1))
-    return (values.reshape(phase.shape + osc.shape) * units(osc)[0])[()]
+    return (values.reshape(phase.shape + osc.shape) * osc.units()[0])[()]
 
 
 def homoclinic_tangency(osc):
@@ -49,7 +51,7 @@ def homoclinic_tangency(osc):
     starting values are Melnikov's; then the splitting is computed all round to make sure that no other phase is ahead.
     Errors as for `splitting`, ConvergenceError also where mu is too small for doubles.
     """
-    unit = unit_members(osc)
+    unit = checks.model(osc).dimensionless().members()
     mu = np.array(critical_amplitude(unit))
     if not np.all(unit.alpha > 0):
         raise ValueError(
@@ -57,15 +59,15 @@ def homoclinic_tangency(osc):
         )
     if np.any(mu < _LEAST):
         raise ConvergenceError(
-            f"{names(unit, mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
+            f"{unit.named(mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
         )
     phase = np.full(mu.size, np.pi / 2)
     for _ in range(4):
         mu, phase = _touch(unit, mu, phase)
-        height, ahead = _highest(saddle_frame(_forced(unit, mu)))
+        height, ahead = _highest(saddle_frame(replace(unit, mu=mu)))
         behind = height < 1e-6 * mu
         if behind.all():
-            return (mu.reshape(osc.shape) * units(osc)[2])[()]
+            return (mu.reshape(osc.shape) * osc.units()[2])[()]
         phase = np.where(behind, phase, ahead)
     raise ConvergenceError(f"mu = {mu}: other phases keep coming ahead in the search for the first tangency")
 
@@ -76,7 +78,7 @@ def _touch(unit, mu, phase):
     curvature = -rate * mu
     last = None
     for _ in range(30):
-        value, slope = (a[0] for a in _split(saddle_frame(_forced(unit, mu)), phase[None]))
+        value, slope = (a[0] for a in _split(saddle_frame(replace(unit, mu=mu)), phase[None]))
         if last is not None:
             # Secants. A step too small to measure a derivative leaves it alone.
             moved = np.abs(phase - last[1]) > 1e-6
@@ -145,7 +147,7 @@ def _crossing(frame, kind, phase, member):
         if left.size == 0:
             return result
     raise ConvergenceError(
-        f"{names(frame.osc, member[left[0]])}: {('W^U', 'W^S')[kind]} has no first crossing of v = 0, x > 1 "
+        f"{frame.osc.named(member[left[0]])}: {('W^U', 'W^S')[kind]} has no first crossing of v = 0, x > 1 "
         f"(dimensionless) at the phase {phase[left[0]]:g}"
     )
 
@@ -153,21 +155,14 @@ def _crossing(frame, kind, phase, member):
 def _follow(frame, kind, t, member):
     """The crossing that follows from the launch at about the times t (n,): TurningPoint, dx / dt, dt_crossing / dt."""
     start, state, rate = launch(frame, kind, t, member)
-    family = Duffing(*frame.osc.columns()[:, member])
     direction = 1 if kind == UNSTABLE else -1
-    found = to_turning_point(family, state, start, direction=direction, beyond=1.0, derivatives=True)
+    found = to_turning_point(frame.osc.members(member), state, start, direction=direction, beyond=1.0, derivatives=True)
     return found, (rate * found.dx).sum(axis=0), (rate * found.dt).sum(axis=0)
 
 
 def _height(unit):
     """d splitting / d mu of the Melnikov function at its greatest: forcing integral over dH0/dx at x = sqrt(2)."""
     return forcing_integral(unit) / np.sqrt(2)
-
-
-def _forced(unit, mu):
-    columns = unit.columns()
-    columns[2] = mu
-    return Duffing(*columns)
 
 
 def with_tangency(p, **parameters):

@@ -3,108 +3,51 @@
 A member's numbers do not depend on its company, so neither do they on the blocks, the workers or the order of arrival.
 """
 
-import os
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
-from dataclasses import fields
 from functools import partial
 
 import numpy as np
 
 from .. import checks
-from ..flow import METHODS
+from ..blocks import by_exponent, on_block
 from ..oscillator import Duffing
 from .checkpoint import Checkpoint
 from .progress import reporting
 from .workers import completed, is_executor
 
-BLOCK = 256  # members, where the caller knows nothing better
-# Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
-# enough that an interrupted run, whose blocks under way come to their end, is over within a second (if it is not asked
-# for so many thousand periods that the fewest members take longer).
-BLOCK_SECONDS = 0.2
 # A task is one block, or several in a family so large that there would be more tasks than this: dask's scheduler takes
 # milliseconds for a task, a folder of kept tasks should hold no millions of files.
 TASKS = 4096
-
-# Roughly the seconds that a member takes for a period: by Runge-Kutta, with 500 steps, and in friction time. There it
-# varies by ten, with tolerance, forcing and p.
-_RK4, _FRICTION_TIME = 5e-6, 5e-5
-# Members that they advance by one instruction, and in one go. In friction time a block has no more than 16, half of the
-# kernel's lanes: twice as many gain a few parts in a hundred, and where they creep they take too long for a block.
-_RK4_LANES, _FRICTION_LANES = (8, 64), (8, 16)
 # Seconds to wait after an error for what is nearly done, where it would be kept: dask reports an error at once, but
 # has yet to fetch results that were there before it.
 GRACE = 1.0
 
 
-def block_of(seconds, groups=(1,)):
-    """Members in a block, where one takes about so many seconds.
-
-    groups : numbers of members, rising, that are advanced side by side: the block is made of the largest that fits
-    """
-    size = min(4096, int(BLOCK_SECONDS / seconds))
-    group = max((g for g in groups if g <= size), default=groups[0])
-    return max(1, size // group) * group
-
-
-def block_for(periods, method="auto", steps_per_period=500, **_):
-    """Members in a block that is followed for so many periods; method and options as for `duffing.flow.integrate`."""
-    if checks.choice("method", method, METHODS) != "rk4":
-        return block_of(periods * _FRICTION_TIME, _FRICTION_LANES)
-    # A steps_per_period that is no number is refused later, by the integrator.
-    steps = steps_per_period if isinstance(steps_per_period, int) and steps_per_period > 0 else 500
-    return block_of(periods * _RK4 * steps / 500, _RK4_LANES)
-
-
-def over_blocks(
-    function, osc, state, options, *, block=BLOCK, dwindling=False, executor=None, progress=None, checkpoint=None
+def spread(
+    function, osc, state, options, block, threads, inside, executor=None, progress=None, checkpoint=None, rows=None
 ):
-    """function(osc, state, threads=..., **options) over a family of N members, block by block.
+    """What `duffing.blocks.over_blocks` does when it is asked for more than one piece; the arguments as there.
 
-    function : returns an array whose last axis is the members' (as many as it is given, whatever their number)
-    state : (2, N), or more rows if the function takes them
-    options : passed on; "threads" among them is the number of threads at once here, or in each block of an executor
-    block : members in a block; a matter of speed, as all that follows
-    dwindling : the function drops members on its way: with little left of each block many small blocks are slow, so
-        that the family is cut only for an executor, progress or checkpoint
-    executor : any concurrent.futures executor (threads, processes, dask's `Client.get_executor()`), or a function
-        without arguments that makes one; None is threads here
-    progress : True, a bar where somebody watches; or called as progress(done, total) with numbers of members
-    checkpoint : a folder for finished tasks, from which the same call goes on where an earlier one ended
-
-    Returns the array over all members, the same bit for bit whatever the block, executor and checkpoint. Memory beyond
-    it and the family is that of the tasks under way, at most `workers.IN_FLIGHT`.
-
-    Raises ValueError for an invalid executor, progress or checkpoint; LostWorkerError when a task goes on killing its
-    worker; and what the function raises. Whatever ends the run, finished tasks stay in the checkpoint.
+    threads : blocks at once where there is no executor; inside : threads of each block; rows : as for `on_block`
     """
     if executor is not None and not is_executor(executor):
         raise ValueError(f"executor = {executor!r}: must be None, an executor or a function that makes one")
-    options, total = dict(options), state.shape[1]
-    threads = options.pop("threads", None)
-    here = os.cpu_count() if threads is None else checks.count("threads", threads)
-    checks.count("block", block)
-    # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own.
-    unseen = executor is None and progress is None and checkpoint is None
-    whole = unseen and (dwindling or total <= 2 * here * block)
-    inside = here if executor is not None and threads is not None else 1
-    block = total if whole else block
+    total = state.shape[1]
     family = _Family(osc, state, block * -(-total // (block * TASKS)))
-    if whole:  # here, in the caller's thread, where an interrupt arrives at once
-        family.enter(0, _run(*family.part(0), function, {**options, "threads": here}, total, None), lambda done: None)
-        return family.result
-    store = None if checkpoint is None else Checkpoint(checkpoint, function, options)
+    # A block with NaN is no result of a run that does not allow them.
+    run = options if rows is None else {**options, "on_failure": "nan"}
+    store = None if checkpoint is None else Checkpoint(checkpoint, function, run)
     # Threads see it and stop between two blocks; processes are ended, and a cluster is let be.
     stop = threading.Event() if executor is None or isinstance(executor, ThreadPoolExecutor) else None
 
     def arguments(start):
-        return *family.part(start), function, {**options, "threads": inside}, block, stop
+        return *family.part(start), function, {**options, "threads": inside}, block, stop, rows
 
     with reporting(progress, total) as report:
         missing = [s for s in family.starts if store is None or not family.restore(s, store, report)]
-        source = partial(ThreadPoolExecutor, min(here, len(family.starts))) if executor is None else executor
+        source = partial(ThreadPoolExecutor, min(threads, len(family.starts))) if executor is None else executor
         try:
             with closing(completed(source, _run, arguments, missing, 0.0 if store is None else GRACE)) as results:
                 for start, array in results:
@@ -122,8 +65,7 @@ class _Family:
 
     def __init__(self, osc, state, size):
         self.columns, self.state, self.size = checks.model(osc).columns(), state, size
-        # Members with one exponent p side by side: the kernels share its table of powers.
-        self.order = np.argsort(self.columns[1], kind="stable")
+        self.order = by_exponent(self.columns)
         self.starts = range(0, state.shape[1], size)
         self.result, self.done = None, 0
 
@@ -150,14 +92,13 @@ class _Family:
         report(self.done)
 
 
-def _run(columns, state, function, options, block, stop):
+def _run(columns, state, function, options, block, stop, rows=None):
     """What a worker does: one block of its task after the other. What it returns once stopped nobody takes."""
-    names = [field.name for field in fields(Duffing)]
     results = []
     for start in range(0, state.shape[1], block):
         if stop is not None and stop.is_set():
             return None
         members = slice(start, start + block)
-        osc = Duffing(**dict(zip(names, columns[:, members], strict=True)))
-        results.append(function(osc, np.ascontiguousarray(state[:, members]), **options))
+        osc = Duffing(*columns[:, members])
+        results.append(on_block(function, osc, np.ascontiguousarray(state[:, members]), options, rows))
     return np.concatenate(results, axis=-1)

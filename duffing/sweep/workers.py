@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from queue import Empty, SimpleQueue
 
 from ..errors import LostWorkerError
+from ..oscillator import Duffing
 
 # Tasks handed over and not yet back: two each for a thousand workers, whatever the size of the family.
 IN_FLIGHT = 2048
@@ -180,8 +181,7 @@ def _end_processes(pool):
 
 def _sentence(arguments, times):
     columns = arguments[0]
-    names = ("alpha", "p", "mu", "omega", "delta", "gamma")
-    first = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, 0], strict=True))
+    first = Duffing(*columns).named()
     return f"workers died {times} times while they computed {columns.shape[1]} members, the first with {first}"
 
 

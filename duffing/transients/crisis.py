@@ -15,7 +15,6 @@ from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate, stroboscopic_times
 from ..orbits.periodic import half_return, periodic_orbit, periodic_orbits
-from ..oscillator import Duffing
 
 TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}
 REACH = 0.25  # from the large saddle orbit within which its linear coordinate is used
@@ -115,7 +114,7 @@ def _heights(osc, found, share, periods, options):
     n, m = share.shape
     step = _LAUNCH * found.multipliers[0, :, None] ** (2 * share)  # a forcing period is two half maps
     start = found.inner[:, :, None] + found.unstable[:, :, None] * step
-    wide = Duffing(*np.repeat(osc.columns(), m, axis=1))
+    wide = osc.repeated(m)
     t = stroboscopic_times(wide, checks.count("periods", periods))
     path = integrate(wide, start.reshape(2, -1), t, **options).states
     away = path.reshape(2, periods + 1, n, m) - found.outer[:, None, :, None]
@@ -139,8 +138,8 @@ def crisis(osc, lower, upper, outer, steps=9, **options):
     )
     ends = []
     for mu in (lower, upper):
-        found = saddles(_at(osc, mu), outer)
-        ends.append(edge_distance(_at(osc, mu), found, **options))
+        found = saddles(osc.members(mu=mu), outer)
+        ends.append(edge_distance(osc.members(mu=mu), found, **options))
     wrong = ~((ends[0] > 0) & (ends[1] < 0))
     if wrong.any():
         bad = int(np.argmax(wrong))
@@ -163,10 +162,10 @@ def crisis_above(osc, lower, outer, step=0.02, tries=15, steps=5, **options):
     shape = checks.model(osc).columns().shape[1:]
     lower = np.broadcast_to(checks.parameter("lower", lower), shape).copy()
     checks.positive("step", step)
-    found = saddles(_at(osc, lower), outer)
+    found = saddles(osc.members(mu=lower), outer)
     outer, upper = found.outer.copy(), np.full(shape, np.inf)
     change = np.zeros_like(outer)
-    leaks = beyond(_at(osc, lower), found, **options)
+    leaks = beyond(osc.members(mu=lower), found, **options)
     if leaks.any():
         bad = int(np.argmax(leaks))
         raise ConvergenceError(f"mu = {lower[bad]}: W^U reaches beyond the border there already")
@@ -177,8 +176,8 @@ def crisis_above(osc, lower, outer, step=0.02, tries=15, steps=5, **options):
         near = outer[:, live]
         for part in np.arange(1, _PARTS) / _PARTS:
             guess = near + change[:, live] / _PARTS
-            near = periodic_orbit(_members(_at(osc, lower + part * step), live), guess, 1).state
-        family = _members(_at(osc, lower + step), live)
+            near = periodic_orbit(osc.members(live, mu=(lower + part * step)[live]), guess, 1).state
+        family = osc.members(live, mu=(lower + step)[live])
         found = saddles(family, near + change[:, live] / _PARTS)
         leaks = beyond(family, found, **options)
         upper[live[leaks]] = lower[live[leaks]] + step
@@ -187,7 +186,7 @@ def crisis_above(osc, lower, outer, step=0.02, tries=15, steps=5, **options):
         change[:, on], outer[:, on] = states - outer[:, on], states
     seen = np.flatnonzero(np.isfinite(upper))
     if seen.size:
-        upper[seen] = _bisected(_members(osc, seen), lower[seen], upper[seen], outer[:, seen], steps, options)
+        upper[seen] = _bisected(osc.members(seen), lower[seen], upper[seen], outer[:, seen], steps, options)
     return upper
 
 
@@ -195,21 +194,11 @@ def _bisected(osc, lower, upper, outer, steps, options):
     """The forcings (n,) between lower and upper at which the distance changes its sign."""
     for _ in range(checks.count("steps", steps)):
         middle = (lower + upper) / 2
-        found = saddles(_at(osc, middle), outer)
+        found = saddles(osc.members(mu=middle), outer)
         outer = found.outer
-        inside = _distance(_at(osc, middle), found, **options) > 0
+        inside = _distance(osc.members(mu=middle), found, **options) > 0
         lower, upper = np.where(inside, middle, lower), np.where(inside, upper, middle)
     return (lower + upper) / 2
-
-
-def _members(osc, chosen):
-    return Duffing(*osc.columns()[:, chosen])
-
-
-def _at(osc, mu):
-    columns = osc.columns()
-    columns[2] = mu
-    return Duffing(*columns)
 
 
 def _eigenvector(matrices):

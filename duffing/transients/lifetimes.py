@@ -11,9 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import checks
+from ..blocks import block_for, over_blocks
 from ..flow import integrate, stroboscopic_times
-from ..oscillator import Duffing
-from ..sweep.families import block_for, over_blocks
 
 LONGEST = 6  # longest period, in forcing periods, of an orbit that is recognised
 REPEATS = 12  # successive returns that must agree
@@ -93,14 +92,14 @@ def lifetimes(
 
 def _followed(osc, state, watched, radius, tolerance, look, tangents, **options):
     """Lifetimes, periods and ends of a block, then its growth if there are tangents: (4 or 4 + watched, n)."""
-    columns, size = osc.columns(), state.shape[1]
+    size = state.shape[1]
     points, growth = np.zeros((2, watched + 1, size)), np.zeros((watched * tangents, size))
     points[:, 0] = state
     repeats, last = np.zeros(size, dtype=int), np.zeros(size, dtype=int)
     active = np.arange(size)
     for first in range(0, watched, look):
         length = min(look, watched - first)
-        part = Duffing(*columns[:, active])
+        part = osc.members(active)
         t = stroboscopic_times(part, length)
         orbit = integrate(part, points[:, first, active], t, tangents=tangents, **options)
         points[:, first + 1 : first + length + 1, active] = orbit.states[:, 1:]

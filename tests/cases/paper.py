@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from book.claims.exponents import P_ONSET
 from book.figures import paper as figures
 from book.studies import reproduction
 from duffing import Duffing, critical_amplitude, homoclinic_orbit, paper
-from duffing.manifolds.curves import stable_manifold, unstable_manifold
+from duffing.paper import P_ONSET
 
 from .case import Case, to_roundoff
 
@@ -29,6 +28,8 @@ def _ratio():
 
 
 def _manifolds():
+    from duffing.manifolds.curves import stable_manifold, unstable_manifold  # all other figures stand on the core alone
+
     osc = Duffing(alpha=0.1, p=1.0)
     data = {}
     for ratio in (0.5, 2.0):
