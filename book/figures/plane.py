@@ -73,17 +73,18 @@ def pairs(found):
 
     found : dict (alpha, omega) -> dict p -> (mu, across, inside, critical): shares between the wells and inside one
     """
-    fig = PageFigure(figsize=(6.8, 1.3 * len(found) + 0.8))
+    fig = PageFigure(figsize=(6.8, 1.15 * len(found) + 0.9))
     panels = fig.subplots(len(found), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, ((alpha, omega), parts) in zip(panels, found.items(), strict=True):
-        for p, (mu, across, inside, critical) in parts.items():
-            look = line_of(p)
-            axes.step(mu, across, where="mid", color=look["color"], linewidth=1.4, label=look["label"])
+        for row, (p, (mu, across, inside, critical)) in enumerate(reversed(parts.items())):
+            colour, base = line_of(p)["color"], 1.2 * row
+            axes.fill_between(mu, base, base + across, step="mid", color=colour, linewidth=0, label=f"$p = {p:g}$")
             seen = inside > 0
-            axes.plot(mu[seen], inside[seen], "^", color=look["color"], markersize=5, fillstyle="none")
-            axes.axvline(critical, color=look["color"], linestyle=":", linewidth=1.4)
+            axes.plot(mu[seen], base + inside[seen], "^", color=colour, markersize=5, fillstyle="none")
+            axes.plot([critical, critical], [base, base + 1], color=colour, linestyle=":", linewidth=1.8)
         axes.set_title(rf"$\alpha = {alpha:g}$, $\omega = {omega:g}$", fontsize=9.5, pad=3)
-        axes.set(ylim=(-0.06, 1.08), yticks=(0, 1))
+        axes.set(ylim=(-0.06, 2.3), yticks=(0, 1, 1.2, 2.2), yticklabels=("0", "1", "0", "1"))
+        axes.tick_params(axis="y", labelsize=7)
     panels[-1].set_xlabel(FORCING)
     fig.supylabel("share of initial conditions", fontsize=9.5)
     fig.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)

@@ -49,10 +49,8 @@ class Cascade(NamedTuple):
 
 def small_branches(osc, points=200):
     """Branches in mu of the small in-well orbits of a family (its own mu not used) from weak forcing on."""
-    columns = osc.columns()
-    columns[2] = WEAK * np.ravel(critical_amplitude(osc))
-    start = Duffing(*columns)
-    bounds = (columns[2] / 2, np.full(columns.shape[1], 0.9))
+    start = osc.members(mu=WEAK * np.ravel(critical_amplitude(osc)))
+    bounds = (start.mu / 2, np.full(start.mu.size, 0.9))
     return orbit_branches(start, settled(start, (1.05, 0.0)), bounds=bounds, points=points)
 
 
@@ -102,11 +100,11 @@ def swept(alpha, omega, p, step=2e-5, steps=50, periods=300, settling=100):
     does. A transient longer than the step is still counted as the attractor's.
     """
     found, osc = cascade(alpha, omega, p), _family(alpha, omega, p)
-    columns, state = osc.columns(), found.state + 1e-4
+    state = found.state + 1e-4
     mu = found.accumulation + step * np.arange(steps)[:, None]
     exponent, lost = np.empty(mu.shape), np.zeros(mu.shape[1], dtype=bool)
-    for k, columns[2] in enumerate(mu):
-        one = Duffing(*columns)
+    for k, forcing in enumerate(mu):
+        one = osc.members(mu=forcing)
         orbit = integrate(one, state, stroboscopic_times(one, settling + periods), tangents=1, **TOLERANCE)
         state = orbit.states[:, -1]
         lost |= returns(orbit.states, 1e-3) == 1
@@ -135,7 +133,7 @@ def share(alpha, omega, p, mu, columns=24, rows=16, periods=1000, last=200):
     left = np.flatnonzero(~lived.settled)
     if left.size == 0:
         return Share(state.shape[1], 0.0, 0.0, np.nan)
-    part = Duffing(*family.columns()[:, left])
+    part = family.members(left)
     exponent = lyapunov_spectrum(part, lived.end[:, left], last, 0, k=1, **TOLERANCE).exponents[0]
     x = integrate(part, lived.end[:, left], part.period[0] * np.arange(961) / 16, **TOLERANCE).states[0]
     crosses = (x.min(axis=0) < 0) & (x.max(axis=0) > 0)
@@ -153,6 +151,5 @@ def _first(found, kind, osc):
     """The forcing (n,) of the first bifurcation of a kind on each branch."""
     places = [next((float(one.osc.mu) for one in points if one.kind == kind), None) for points in found]
     if None in places:
-        alpha, p, _, omega, *_ = osc.columns()[:, places.index(None)]
-        raise ConvergenceError(f"alpha = {alpha:g}, omega = {omega:g}, p = {p:g}: no {kind} of the in-well orbit found")
+        raise ConvergenceError(f"{osc.named(places.index(None))}: no {kind} of the in-well orbit was found")
     return np.array(places)

@@ -58,7 +58,7 @@ def borders(alpha, omega, p, points=POINTS, steps=4):
     fold = small_folds(alpha, omega, p)
     alpha, omega = (np.ravel(part) for part in np.broadcast_arrays(alpha, omega))
     family = oscillators(alpha, omega, p, fold - BELOW)
-    starts = np.array([_first_saddle(Duffing(*column)) for column in family.columns().T]).T
+    starts = np.array([_first_saddle(family.members(k)) for k in range(fold.size)]).T
     found = crisis_above(family, starts[0], starts[1:], steps=steps, points=points, **_exact(p))
     inside = cascade(tuple(alpha), tuple(omega), p).accumulation
     return Borders(critical_amplitude(family), fold, inside, found)
@@ -72,20 +72,20 @@ def leaks_at_fold(alpha, omega, p, points=POINTS):
     family = oscillators(alpha, omega, p, fold)
     found, outer = np.zeros(fold.size, dtype=bool), np.empty((2, fold.size))
     exists = np.ones(fold.size, dtype=bool)
-    for k, column in enumerate(family.columns().T):
+    for k in range(fold.size):
         try:
-            outer[:, k] = large_saddle(Duffing(*column))
+            outer[:, k] = large_saddle(family.members(k))
         except ConvergenceError:
             exists[k] = False
     some = np.flatnonzero(exists)
     if some.size:
-        part = Duffing(*family.columns()[:, some])
+        part = family.members(some)
         found[some] = beyond(part, saddles(part, outer[:, some]), points=points, **_exact(p))
     return found
 
 
 @remembered
-def apex(alpha, p, reach=0.08, halvings=5, points=POINTS):
+def apex(alpha, p, reach=0.04, halvings=4, points=POINTS):
     """The frequencies (n,) at which fold and crisis change places, for alphas (n,) and one p, by bisection between
     1.1 - alpha - reach and 1.1 - alpha + reach: right within reach / 2^halvings.
 
@@ -123,12 +123,12 @@ def lasting(alpha, omega, p, mu, columns=4, rows=2, periods=800, last=150):
     have not settled by then. alpha, omega and mu broadcast; p : one number."""
     osc, state = oscillators(alpha, omega, p, mu), 1.2 * between(columns, rows)
     n, m = osc.columns().shape[1], state.shape[1]
-    wide, options = Duffing(*np.repeat(osc.columns(), m, axis=1)), integrator(p)
+    wide, options = osc.repeated(m), integrator(p)
     lived = lifetimes(wide, np.tile(state, n), periods, **options)
     exponent, crosses = np.full(n * m, np.nan), np.zeros(n * m, dtype=bool)
     left = np.flatnonzero(~lived.settled)
     if left.size:
-        part = Duffing(*wide.columns()[:, left])
+        part = wide.members(left)
         end = lived.end[:, left]
         exponent[left] = lyapunov_spectrum(part, end, last, 0, k=1, history=False, **options).exponents[0]
         t = np.arange(40 * 16 + 1)[:, None] / 16 * part.period
@@ -148,6 +148,22 @@ def region(field, values, mu, p, alpha=0.1, omega=1.0, **sizes):
     other[field] = tuple(grid[0])
     found = lasting(other["alpha"], other["omega"], p, tuple(grid[1]), **sizes)
     return Lasting(*(part.reshape(len(mu), len(values)) for part in found))
+
+
+def agreement(grid, mu, across, values, found):
+    """How brute force and the borders agree: of the cells with lasting chaos, the part between the borders (within one
+    cell's height); of the cells between them, the part with lasting chaos.
+
+    grid (n,), mu (m,), across (m, n) : of a `region`; values (k,) : of the lines; found : their Borders
+    """
+    columns = (np.array(grid) >= min(values)) & (np.array(grid) <= max(values))
+    x = np.array(grid)[columns]
+    fold, inside, crisis = (np.interp(x, values, line) for line in (found.fold, found.inside, found.crisis))
+    lower, rows = np.maximum(fold, inside), np.array(mu)[:, None]
+    chaotic, height = across[:, columns] > 0, rows[1, 0] - rows[0, 0]
+    near = (rows > lower - height) & (rows < crisis + height)
+    within = (rows > lower) & (rows < crisis)
+    return float(near[chaotic].mean()), float(chaotic[within].mean())
 
 
 class Compared(NamedTuple):
