@@ -93,13 +93,13 @@ class Swept(NamedTuple):
 
 
 @remembered
-def swept(alpha, omega, p, step=2e-5, steps=50, periods=300, settling=100):
+def swept(alpha, omega, p, step=2e-5, steps=40, periods=300, settling=100, doublings=2):
     """The Swept from each cascade's accumulation on: `periods` a step, the state carried on to the next mu.
 
     Captured is an orbit that repeats itself every forcing period: on the chaotic attractor and in its windows none
     does. A transient longer than the step is still counted as the attractor's.
     """
-    found, osc = cascade(alpha, omega, p), _family(alpha, omega, p)
+    found, osc = cascade(alpha, omega, p, doublings), _family(alpha, omega, p)
     state = found.state + 1e-4
     mu = found.accumulation + step * np.arange(steps)[:, None]
     exponent, lost = np.empty(mu.shape), np.zeros(mu.shape[1], dtype=bool)
