@@ -51,6 +51,7 @@ maps: $(READY)
 	$(BIN)/python tools/maps.py
 	$(BIN)/python tools/maps_basins.py 512
 	$(BIN)/python tools/maps_transients.py
+	$(BIN)/python tools/maps_plane.py
 
 # Two runs of the chapters, on one thread and on several: the same numbers bit for bit.
 reproducible: $(READY)

@@ -70,6 +70,10 @@ CALLS = {
     "transients.crisis.crisis": {
         "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "upper": 0.26, "outer": OUTER, "steps": 1, "points": 200
     },
+    "transients.crisis.crisis_above": {
+        "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "outer": OUTER, "step": 0.02, "tries": 1, "steps": 1,
+        "points": 100
+    },
     "basins.fates.fate": {"osc": OSC, "states": START, "periods": 6, "last": 4},
     "transients.lifetimes.lifetimes": {
         "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
@@ -89,7 +93,7 @@ WITHIN = {
     "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
     " switched",
     "basins": "boundary_dimension capture changed contracted_form look ordered neighbourhood points_of read trap",
-    "transients": "both_wells edge_distance returns",
+    "transients": "beyond both_wells edge_distance returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
 STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]

@@ -5,7 +5,7 @@ A branch comes as (name, parameter (n,), value (n,) or (k, n), stable (n,) bool)
 
 import numpy as np
 
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, PageFigure, line_of, styled
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, PageFigure, line_of, panel, styled
 
 ORBIT_COLOUR = {"in a well": BLUE, "round both wells": VERMILION, "saddle orbit": GREY, "period 3": GREEN}
 LOCUS_LOOK = {
@@ -152,11 +152,12 @@ def _legend(fig, axes):
 def in_well_chaos(curves):
     """lambda_1 of the motion in a well above the accumulation of its doublings: dict p -> (distance, exponent), the
     distance in mu from the accumulation; nan once the motion is captured."""
-    fig, axes = panel(r"distance $\mu - \mu_A$ from the accumulation", r"$\lambda_1$ (per unit time)", figsize=(6.4, 3.6))
+    name = r"distance $\mu - \mu_A$ from the accumulation, in $10^{-4}$"
+    fig, axes = panel(name, r"$\lambda_1$ (per unit time)", figsize=(6.4, 3.6))
     axes.axhline(0, color=GREY, linewidth=0.8)
     for (p, (distance, exponent)), marker in zip(curves.items(), ("o", "s", "^", "D", "v"), strict=False):
-        axes.plot(1e4 * distance, exponent, marker=marker, markersize=3, **{**line_of(p), "linestyle": "-", "linewidth": 0.8})
-    axes.set_xlabel(r"distance $\mu - \mu_A$ from the accumulation, in $10^{-4}$")
+        look = line_of(p) | {"linestyle": "-", "linewidth": 0.8}
+        axes.plot(1e4 * distance, exponent, marker=marker, markersize=3, **look)
     axes.legend()
     return fig
 
@@ -177,6 +178,6 @@ def accumulations(over_p, over_alpha, over_omega):
     for axes, name in zip(panels, names, strict=True):
         axes.axhline(1, color=GREY, linewidth=0.9)
         axes.set_xlabel(name)
-    panels[0].set_ylabel(r"$\mu_A / \mu_c$")
+    fig.supylabel(r"$\mu_A / \mu_c$", fontsize=10)
     panels[1].legend()
     return fig
