@@ -1,5 +1,5 @@
-# make book | test | check-book | lab | pdf | archive | maps | window | bench | lint | clean,
-# and for the maintainer: make reproducible | mutants | record | environment | baselines | headline
+# make book | test | check-book | lab | pdf | archive | maps | bench | lint | clean,
+# and for the maintainer: make reproducible | mutants | record | environment | baselines
 # Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
 PYTHON ?= python3
 BIN := .venv/bin
@@ -15,7 +15,7 @@ LAB_DEFAULTS := { \
     "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}, \
     "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false}}
 
-.PHONY: book test check-book lab bench record maps window reproducible mutants pdf archive lint clean environment baselines headline
+.PHONY: book test check-book lab bench record maps reproducible mutants pdf archive lint clean environment baselines
 
 book: $(READY)
 	@$(BIN)/python book/sphinx/build.py $(JOBS)
@@ -29,7 +29,6 @@ lab: $(READY)
 # Side by side with other packages, which have an environment of their own; `make bench QUICK=--quick` for a first look.
 bench: $(BENCH)/ready
 	$(BENCH)/bin/python -m benchmarks $(QUICK)
-	$(BENCH)/bin/python benchmarks/scale.py
 
 # The dated measurement that the chapter on speed shows.
 record: $(BENCH)/ready
@@ -46,12 +45,10 @@ pdf: book
 archive: book
 	$(BIN)/python tools/archive.py
 
-# Planes and basins at full resolution into _build/maps: hours on two cores; an interrupted run goes on where it was.
+# Planes, basins and transients at full resolution into _build/maps: hours on two cores; an interrupted run goes on where
+# it was. `make maps WHAT=window`: the window of chaos from 200 starts, some minutes; WHAT=headline: the README's picture.
 maps: $(READY)
-	$(BIN)/python tools/maps.py
-	$(BIN)/python tools/maps_basins.py 512
-	$(BIN)/python tools/maps_transients.py
-	$(BIN)/python tools/maps_plane.py
+	$(BIN)/python tools/maps.py $(WHAT)
 
 # Two runs of the chapters, on one thread and on several: the same numbers bit for bit.
 reproducible: $(READY)
@@ -60,14 +57,6 @@ reproducible: $(READY)
 # Deliberate errors, one at a time: each must turn the suite red.
 mutants: $(READY)
 	$(BIN)/python tools/mutants.py
-
-# The window of chaos from 200 starts instead of the book's 32: some minutes.
-window: $(READY)
-	$(BIN)/python tools/window.py
-
-# The picture in the README.
-headline: $(READY)
-	$(BIN)/python tools/headline.py
 
 lint: $(READY)
 	$(BIN)/ruff check .

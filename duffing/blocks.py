@@ -1,8 +1,7 @@
-"""A family in one piece or in blocks: how large a block is, and whether anything has to be cut at all.
+"""A family piece by piece: how large a block of it is, and one block after the other.
 
-A member's numbers do not depend on its company, so neither do they on the blocks. Where nobody asks for an executor,
-for progress or for a checkpoint, and the family is small, the integrator has it whole; all else is for `sweep`, which
-is imported when it is called for.
+A member's numbers do not depend on its company, so neither do they on the blocks. Executors, progress and checkpoints
+are the work of `sweep`, which is imported when it is called for.
 """
 
 import os
@@ -10,8 +9,8 @@ import os
 import numpy as np
 
 from . import checks
-from .failures import POLICIES, announce, attempted
-from .flow import METHODS
+from .flow import METHODS, POLICIES
+from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better
 # Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
@@ -73,17 +72,17 @@ def over_blocks(
     threads = options.pop("threads", None)
     here = os.cpu_count() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
-    lenient = None if checks.choice("on_failure", on_failure, POLICIES) == "raise" else rows
-    unseen = executor is None and progress is None and checkpoint is None
-    # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own. It
-    # runs in the caller's thread, where an interrupt arrives at once.
-    if unseen and (dwindling or state.shape[1] <= 2 * here * block):
-        result = _whole(function, checks.model(osc), state, {**options, "threads": here}, lenient)
-    else:
-        result = _spread(function, osc, state, options, block, here, executor, threads, lenient, progress, checkpoint)
-    if lenient is not None:
-        announce(result, osc, lambda members: function(osc.members(members), state[:, members], **options))
-    return result
+    lenient = checks.choice("on_failure", on_failure, POLICIES) == "nan"
+    if executor is None and progress is None and checkpoint is None and not lenient:
+        # The integrators have threads of their own: pieces long enough to keep them busy, and a family that dwindles in
+        # one. It all runs in the caller's thread, where an interrupt arrives at once.
+        piece = state.shape[1] if dwindling else 2 * here * block
+        return _here(function, checks.model(osc).columns(), state, {**options, "threads": here}, piece)
+    from .sweep.families import spread  # no figure of the paper asks for what it can do
+
+    inside = here if executor is not None and threads is not None else 1
+    rows = rows if lenient else None
+    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint, rows)
 
 
 def by_exponent(columns):
@@ -91,25 +90,12 @@ def by_exponent(columns):
     return np.argsort(columns[1], kind="stable")
 
 
-def _whole(function, osc, state, options, rows):
-    order = by_exponent(osc.columns())
-    result = on_block(function, osc.members(order), np.ascontiguousarray(state[:, order]), options, rows)
-    back = np.empty_like(result)
-    back[..., order] = result
-    return back
-
-
-def on_block(function, osc, state, options, rows=None):
-    """function on a block of members; rows : None, or the shape of a member's result, NaN where it has no answer."""
-
-    def some(members):
-        return function(osc.members(members), np.ascontiguousarray(state[:, members]), **options)
-
-    return function(osc, state, **options) if rows is None else attempted(some, np.arange(state.shape[1]), rows)
-
-
-def _spread(function, osc, state, options, block, here, executor, threads, rows, progress, checkpoint):
-    from .sweep.families import spread  # executors, progress and checkpoints: no figure of the paper asks for them
-
-    inside = here if executor is not None and threads is not None else 1
-    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint, rows)
+def _here(function, columns, state, options, piece):
+    order, result = by_exponent(columns), None
+    for start in range(0, order.size, piece):
+        members = order[start : start + piece]
+        rows = function(Duffing(*columns[:, members]), np.ascontiguousarray(state[:, members]), **options)
+        if result is None:
+            result = np.empty((*rows.shape[:-1], order.size), rows.dtype)
+        result[..., members] = rows
+    return result

@@ -3,10 +3,10 @@
 import numpy as np
 
 from . import checks
-from .failures import answers
 from .integrators import rk4
 
 METHODS = ("auto", "rk4", "friction")
+POLICIES = ("raise", "nan")  # where a member of a family has no answer
 RK4_OPTIONS = ("steps_per_period", "threads")
 FRICTION_OPTIONS = ("rtol", "atol", "max_steps", "switch", "threads")
 
@@ -47,10 +47,16 @@ def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
     t = checks.times(t)
     state = checks.state(state, osc.shape)
 
-    def states(members):
+    def states(members=slice(None)):
         return integrate(osc.members(members), state[:, members], t, method=method, **options).states
 
-    return answers(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
+    if checks.choice("on_failure", on_failure, POLICIES) == "raise":
+        found = states()
+    else:
+        from .sweep.failures import answers  # when it is asked for
+
+        found = answers(states, osc, (2, t.size))
+    return found.reshape(2, t.size, *osc.shape)
 
 
 def stroboscopic_times(osc, periods, transient=0, phase=0.0):

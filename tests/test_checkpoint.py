@@ -262,13 +262,13 @@ def test_a_run_killed_half_way_goes_on_where_it_was_and_ends_with_the_identical_
     assert not end.exists()
     before = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.block")}
     computed = []
-    run_rows = sweep._run
+    run_rows = sweep.run_task
 
     def counting(*arguments):
         computed.append(arguments)
         return run_rows(*arguments)
 
-    monkeypatch.setattr(sweep, "_run", counting)
+    monkeypatch.setattr(sweep, "run_task", counting)
     monkeypatch.setattr(blocks, "BLOCK_SECONDS", 0.02)
     osc = Duffing(p=0.1, mu=np.linspace(0.1, 0.3, 400))
     options = {"periods": 60, "method": "rk4"}

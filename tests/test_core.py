@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 CORE = [*sorted((ROOT / "duffing").glob("*.py")), *sorted((ROOT / "duffing" / "integrators").glob("*.py"))]
 FIGURES = ("1a", "1b", "3a", "3b", "4a", "4b", "5a", "5b", "6a", "6b")
-MOST_OF_THE_CORE, MOST = 1600, 6000  # lines
+MOST_OF_THE_CORE, MOST = 1650, 6300  # lines: about 1,500 and 6,000 are aimed at
 
 # A process in which nothing of the project can be imported but the core, the study of the paper's figures and what
 # draws them: then each figure's data against the baseline, as `test_figures` compares them.

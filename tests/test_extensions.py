@@ -141,6 +141,17 @@ def test_a_mark_beside_each_equation_leads_to_its_tests_and_says_how_they_ended(
     assert "Nobody cites me – ○ skipped" in listed
     assert "2 passed, 1 failed, 1 skipped, with Python" in listed
     assert "assert 3 == 4" in listed and "not today" not in listed, "the source of the cited tests, and of those alone"
+    assert "checked by" not in html["index"].lower() and "test_one_is_one" not in html["index"], "marks say it"
+
+
+def test_a_test_cited_within_prose_becomes_a_mark_there(book):
+    prose = "It holds (`tests/test_a.py::test_one_is_one`), and twelve more words of prose stand here "
+    prose += "beside it, which are checked by nobody."
+    write(book, {"index.md": INDEX + f"\n    {prose}\n"})
+    html, complaints = build(book)
+    assert complaints == ""
+    assert re.search(r"It holds \(<a [^>]*><span class=\"test-mark not-run\">○ test not run", html["index"])
+    assert "twelve more words of prose" in html["index"] and "test_one_is_one" not in html["index"]
 
 
 def test_without_a_run_of_the_tests_on_this_very_code_a_mark_says_so(book):

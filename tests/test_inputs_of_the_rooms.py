@@ -41,7 +41,7 @@ CALLS = {
     "manifolds.curves.stable_manifold": CURVE,
     "melnikov.damping_integral": {"osc": OSC},
     "melnikov.forcing_integral": {"osc": OSC},
-    "melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
+    "book.studies.melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
     "manifolds.sticking.sticking_amplitude": {"osc": OSC},
     "manifolds.correction.tangency_correction": {"osc": Duffing(p=0.5)},
     "orbits.periodic.half_return": ORBIT,
@@ -144,7 +144,8 @@ OTHERWISE = {
 
 def call(name, **arguments):
     module, _, function = name.rpartition(".")
-    return getattr(import_module(f"duffing.{module}"), function)(**{**CALLS[name], **arguments})
+    place = module if module.startswith("book.") else f"duffing.{module}"
+    return getattr(import_module(place), function)(**{**CALLS[name], **arguments})
 
 
 @pytest.mark.parametrize("room", [orbits, basins, transients])
@@ -175,7 +176,8 @@ def test_what_an_argument_cannot_be_is_refused_by_its_name(name, argument):
 
 
 SINGLE = (
-    "manifolds.curves.unstable_manifold", "melnikov.melnikov_quadrature", "orbits.periodic.periodic_orbits",
+    "book.studies.melnikov.melnikov_quadrature",
+    "manifolds.curves.unstable_manifold", "orbits.periodic.periodic_orbits",
     "basins.attractors.find_attractors", "basins.attractors.settle", "basins.basins.basins",
     "basins.boundary.line_of_starts", "basins.contact.homoclinic_strips", "basins.contact.first_contact",
     "transients.crisis.large_saddle",

@@ -125,7 +125,7 @@ def test_starts_between_the_wells_fill_their_box():
 
 
 def test_lifetimes_below_the_fold_level_off():
-    """Within a thousandth and a millionth below the fold they agree, where a crisis would let them grow without bound."""
+    """At 1e-4 and 1e-6 below the fold they agree, where a crisis would let them grow without bound."""
     mean, error = transient_study.below_fold((1e-4, 1e-6), columns=12, rows=12, periods=800)
     assert abs(mean[0] - mean[1]) < 4 * np.hypot(*error)
     mu = transient_study.folds((0.1,))[0][0]

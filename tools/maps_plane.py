@@ -1,6 +1,6 @@
 """The planes of the chapter "Where chaos lasts" on finer grids, for every pair and with more initial conditions.
 
-Writes _build/maps/regions.png, apexes.png and pairs.png. Hours; each part is written when it is done.
+Writes _build/maps/regions.png, apexes.png and pairs.png, each when it is done: `make maps WHAT=wedge`, hours.
 """
 
 from pathlib import Path
@@ -14,7 +14,10 @@ from duffing.oscillator import Duffing
 
 FOLDER = Path("_build/maps")
 GRID = {"omega": np.round(np.arange(0.9, 1.251, 0.0125), 5), "alpha": np.round(np.arange(0.05, 0.301, 0.01), 5)}
-LINES = {"omega": tuple(np.round(np.arange(0.97, 1.241, 0.03), 5)), "alpha": tuple(np.round(np.arange(0.08, 0.301, 0.02), 5))}
+LINES = {
+    "omega": tuple(np.round(np.arange(0.97, 1.241, 0.03), 5)),
+    "alpha": tuple(np.round(np.arange(0.08, 0.301, 0.02), 5)),
+}
 FIXED = {"alpha": r"$\omega = 1$", "omega": r"$\alpha = 0.1$"}
 
 
@@ -33,7 +36,7 @@ def regions(step=0.005, columns=4, rows=2, periods=2000):
             found = plane.borders(*((x, 1.0) if field == "alpha" else (0.1, x)), p, points=600, steps=6)
             across = plane.region(field, GRID[field], mu, p, columns=columns, rows=rows, periods=periods).across
             inside, filled = plane.agreement(GRID[field], mu, across, x, found)
-            print(f"p = {p}, {field}: {inside:.1%} of the chaotic cells between the borders, {filled:.1%} of those chaotic")
+            print(f"p = {p}, {field}: {inside:.1%} of the chaos between the borders, {filled:.1%} of that chaotic")
             title = f"$p = {p:g}$, {FIXED[field]}"
             panels.append((title, field, (GRID[field], mu), across, np.array(x), found._asdict()))
     write("regions", figures.regions(panels, {"alpha": 0.1, "omega": 1.0}))

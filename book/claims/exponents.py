@@ -12,6 +12,7 @@ from duffing.paper import P_ONSET
 
 from ..remember import remembered
 from ..studies import reproduction, small_p
+from ..studies.accuracy import CURVES
 from .verdicts import decide, finds
 
 FINDINGS = {}
@@ -39,7 +40,7 @@ def weak_forcing(steps=1):
 def exact_exponents(mu, p=paper.P_SMALL, periods=199):
     """lambda_1 in friction time from the paper's start, after forty periods, for a tuple of mu: (len(mu),)."""
     family = replace(paper.OSCILLATOR, p=p, mu=np.array(mu))
-    return lyapunov_spectrum(family, paper.START, periods, 40, k=1, **small_p.TOLERANCE).exponents[0]
+    return lyapunov_spectrum(family, paper.START, periods, 40, k=1, **CURVES).exponents[0]
 
 
 def _at(curve, mu):

@@ -45,6 +45,12 @@ def table(*keys):
     return tables.table(head, [(c.where, c.says, f.text, f"**{f.verdict}**") for c, f in found])
 
 
+def verdicts(*keys):
+    """A line for each of these claims, to end a chapter with: what the paper says and the verdict; reasons: the ledger."""
+    found = [(claim.says, f"[**{finding.verdict}**](ledger.md)") for claim, finding in rows(*keys)]
+    return tables.table(("The paper says", "Verdict"), found)
+
+
 def tally(found):
     """Number of rows with each verdict: dict in the order of VERDICTS."""
     return {verdict: sum(row.finding.verdict == verdict for row in found) for verdict in VERDICTS}

@@ -13,10 +13,10 @@ from duffing.melnikov import (
     damping_integral,
     homoclinic_orbit,
     melnikov_function,
-    melnikov_quadrature,
 )
 from duffing.oscillator import Duffing
 
+from ..studies.melnikov import melnikov_quadrature
 from .verdicts import decide, finds
 
 FINDINGS = {}

@@ -1,6 +1,6 @@
 """What the chapter on basins computes: pictures, their dependence on the step, dimensions of the boundary, sections.
 
-Sizes are arguments: the book takes what fits its time, `tools/maps_basins.py` the full resolution.
+Sizes are arguments: the book takes what fits its time, `tools/maps.py` the full resolution.
 """
 
 from dataclasses import replace
@@ -20,11 +20,11 @@ from duffing.errors import ConvergenceError
 from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
+from .accuracy import integrator
 
 FRAME = ((-1.7, 1.7), (-1.5, 1.5))  # x and v of the pictures
 AXIS = ((-1.5, 0.0), (1.5, 0.0))  # the line v = 0 whose crossings with the boundary are counted
-STEPS = 128  # Runge-Kutta steps a period for p = 1
-FRICTION_TIME = {"rtol": 1e-6, "atol": 1e-8}
+STEPS = 128  # Runge-Kutta steps a period for p >= 1
 SECTION_PERIODS = 120
 
 
@@ -34,15 +34,10 @@ def oscillator(p, ratio=None, mu=None):
     return replace(osc, mu=float(ratio * critical_amplitude(osc)) if mu is None else mu)
 
 
-def integrator(p, steps=STEPS):
-    """Options for p: physical time and fixed steps where the damping is smooth in v, friction time elsewhere."""
-    return {"method": "rk4", "steps_per_period": steps} if p == 1 else FRICTION_TIME
-
-
 @remembered
 def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, **sweep):
     """Basins of size x size starts in FRAME, at ratio times mu_c or at mu; sweep : how, as for `basins`."""
-    osc, options = oscillator(p, ratio, mu), integrator(p, steps)
+    osc, options = oscillator(p, ratio, mu), integrator(p, steps_per_period=steps)
     x, v = (np.linspace(*ends, size) for ends in FRAME)
     # Starts of a coarser grid than by default: a small attractor that they miss is met by the picture's own starts.
     starts = np.reshape(np.meshgrid(x[:: size // 8], v[:: size // 8]), (2, -1))
@@ -99,7 +94,7 @@ def random_dimensions(p, ratios, starts=2**12, eps=(1e-4, 3e-4, 1e-3, 3e-3, 1e-2
         osc = oscillator(p, ratio)
 
         def label(states, osc=osc):
-            return fate(osc, states, periods, **integrator(p, 96))
+            return fate(osc, states, periods, **integrator(p, steps_per_period=96))
 
         try:
             found.append(dimension(eps, uncertain_starts(label, FRAME, eps, starts), starts))
@@ -122,4 +117,4 @@ def section(mu, x, p=paper.P_SMALL, periods=SECTION_PERIODS):
     x, mu = np.array(x), np.array(mu)
     states = np.array(np.broadcast_arrays(x[:, None], np.zeros(mu.size)))
     family = replace(paper.OSCILLATOR, p=p, mu=np.broadcast_to(mu, states.shape[1:]))
-    return fate(family, states, periods, last=16, **integrator(p))
+    return fate(family, states, periods, last=16, **integrator(p, steps_per_period=STEPS))

@@ -13,8 +13,8 @@ from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
 from . import small_p
-from .transients import TOLERANCE as FAST
-from .transients import between, integrator
+from .accuracy import integrator
+from .transients import between
 from .wandering import Wandering, mean_ratio, wandering
 
 P = (0.1, 0.5, 1.0, 2.0)
@@ -94,7 +94,7 @@ def chaotic_exponents(mu, p=paper.P_SMALL, columns=8, rows=5, periods=400, osc=p
     state = small_p.starts(columns, rows)
     family = replace(osc, p=p, mu=np.repeat(np.array(mu)[:, None], state.shape[1], axis=1))
     start, found = np.repeat(state[:, None], len(mu), axis=1), []
-    for options in ({"method": "rk4"}, FAST):
+    for options in ({"method": "rk4"}, integrator(p)):
         one = lyapunov_spectrum(family, start, periods, 40, k=1, history=False, **options).exponents[0]
         chaotic = one > paper.THRESHOLD  # a mean that a capture has diluted is no exponent of chaos
         mean = mean_ratio(np.where(chaotic, one, 0.0), 1 * chaotic)

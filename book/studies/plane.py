@@ -15,20 +15,16 @@ from duffing.transients.crisis import beyond, crisis_above, large_saddle, saddle
 from duffing.transients.lifetimes import lifetimes
 
 from ..remember import remembered
+from .accuracy import CURVES, integrator
 from .cascade import CHAOTIC, cascade, small_folds
 from .transients import between
 
 # Pairs (alpha, omega) under which the paper's text has been read; the first is the one adopted.
 PAIRS = ((0.1, 1.0), (0.14, 1.05), (0.16, 1.175), (0.15, 1.175), (0.05, 1.3), (0.095, 1.2625))
 EXPONENTS = (0.1, 1.0)
-FAST = {"rtol": 1e-6, "atol": 1e-8}  # of chaos only the attractor is meant
+STEPS = 128  # Runge-Kutta steps a period where the damping is smooth: of chaos only the attractor is meant
 BELOW = 0.05  # under the fold, where the search for a crisis begins
 POINTS = 200  # on a fundamental domain of W^U
-
-
-def integrator(p, steps=128):
-    """Options for `integrate`: few Runge-Kutta steps where the damping is smooth, friction time elsewhere."""
-    return {"method": "rk4", "steps_per_period": steps} if p >= 1 else FAST
 
 
 def oscillators(alpha, omega, p, mu):
@@ -59,7 +55,7 @@ def borders(alpha, omega, p, points=POINTS, steps=4):
     alpha, omega = (np.ravel(part) for part in np.broadcast_arrays(alpha, omega))
     family = oscillators(alpha, omega, p, fold - BELOW)
     starts = np.array([_first_saddle(family.members(k)) for k in range(fold.size)]).T
-    found = crisis_above(family, starts[0], starts[1:], steps=steps, points=points, **_exact(p))
+    found = crisis_above(family, starts[0], starts[1:], steps=steps, points=points, **integrator(p, CURVES, 200))
     inside = cascade(tuple(alpha), tuple(omega), p).accumulation
     return Borders(critical_amplitude(family), fold, inside, found)
 
@@ -80,7 +76,7 @@ def leaks_at_fold(alpha, omega, p, points=POINTS):
     some = np.flatnonzero(exists)
     if some.size:
         part = family.members(some)
-        found[some] = beyond(part, saddles(part, outer[:, some]), points=points, **_exact(p))
+        found[some] = beyond(part, saddles(part, outer[:, some]), points=points, **integrator(p, CURVES, 200))
     return found
 
 
@@ -123,7 +119,7 @@ def lasting(alpha, omega, p, mu, columns=4, rows=2, periods=800, last=150):
     have not settled by then. alpha, omega and mu broadcast; p : one number."""
     osc, state = oscillators(alpha, omega, p, mu), 1.2 * between(columns, rows)
     n, m = osc.columns().shape[1], state.shape[1]
-    wide, options = osc.repeated(m), integrator(p)
+    wide, options = osc.repeated(m), integrator(p, steps_per_period=STEPS)
     lived = lifetimes(wide, np.tile(state, n), periods, **options)
     exponent, crosses = np.full(n * m, np.nan), np.zeros(n * m, dtype=bool)
     left = np.flatnonzero(~lived.settled)
@@ -222,8 +218,3 @@ def _mean(value, chosen):
     off = np.where(chosen, value - mean[:, None], 0.0)
     error = np.sqrt((off**2).sum(axis=1) / np.maximum(count - 1, 1) / safe)
     return np.where(count > 0, mean, np.nan), np.where(count > 1, error, np.where(count > 0, np.inf, np.nan))
-
-
-def _exact(p):
-    """Options for W^U near the border: 200 steps give the crisis at p = 1 within its bisection."""
-    return {"method": "rk4", "steps_per_period": 200} if p >= 1 else {}

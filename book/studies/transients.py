@@ -15,18 +15,12 @@ from duffing.transients.lifetimes import both_wells, lifetimes
 from duffing.transients.survival import exponential, rate
 
 from ..remember import remembered
+from .accuracy import integrator
 
 SINCE = 20  # periods before a transient is chaotic: orbits that start in a basin's interior are captured sooner
-# Of lifetimes only the law is meant, so that orbits need not be exact over long times, which in chaos they cannot be.
-TOLERANCE = {"rtol": 1e-6, "atol": 1e-8}
 # A coarse bracket of the crisis for each exponent, and where the small orbits are met on their way to the fold.
 P_CRISIS, BELOW, ABOVE = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0), (0.270, 0.259, 0.252, 0.248, 0.243, 0.240, 0.239), 0.008
 FAR = 0.22
-
-
-def integrator(p):
-    """Options for `integrate`: the paper's step where the damping is smooth, which is exact enough and cheap there."""
-    return {"method": "rk4"} if p >= 1 else TOLERANCE
 
 
 def between(columns, rows):
@@ -118,9 +112,7 @@ def crises(p=P_CRISIS, points=400, steps=6, by_step=False, osc=paper.OSCILLATOR)
     for chosen, options in ((p >= 1, {"method": "rk4"}), (p < 1, {"method": "rk4"} if by_step else {})):
         if chosen.any():
             ends, family = lower[chosen], replace(osc, p=p[chosen])
-            found[chosen] = crisis(
-                family, ends, ends + ABOVE, outer[:, chosen], steps=steps, points=points, **options
-            )
+            found[chosen] = crisis(family, ends, ends + ABOVE, outer[:, chosen], steps=steps, points=points, **options)
     return found
 
 

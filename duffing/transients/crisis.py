@@ -58,7 +58,9 @@ def saddles(osc, outer):
     """Saddles of the family, the large ones near the guesses `outer`, (2,) or (2, n). Errors as `periodic_orbit`."""
     outer = checks.state(outer, checks.model(osc).shape, "outer")
     _, _, mu, omega, delta, _ = osc.columns()
-    centre = np.array([-mu / (omega**2 - delta), 0.4 * mu / (1 + omega**2)])  # the linear, undamped response; a little v
+    centre = np.array(
+        [-mu / (omega**2 - delta), 0.4 * mu / (1 + omega**2)]
+    )  # the linear, undamped response; a little v
     inner = periodic_orbit(osc, centre.reshape(2, *osc.shape), 1)
     outer = periodic_orbit(osc, outer.reshape(2, *osc.shape), 1)
     states = [orbit.state.reshape(2, -1) for orbit in (inner, outer)]

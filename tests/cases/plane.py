@@ -15,7 +15,9 @@ FORCINGS = (0.2, 0.235, 0.25, 0.26)
 def _regions():
     across = np.array([[0, 0, 0], [0, 0.25, 1], [0, 0.5, 1], [0, 0, 0.75]])
     lines = {"fold": [0.29, 0.25, 0.21], "inside": [0.14, 0.15, 0.16], "crisis": [0.26, 0.28, 0.3]}
-    return GRID | {"across": across, "critical": np.array([0.21, 0.22, 0.23])} | {k: np.array(v) for k, v in lines.items()}
+    return (
+        GRID | {"across": across, "critical": np.array([0.21, 0.22, 0.23])} | {k: np.array(v) for k, v in lines.items()}
+    )
 
 
 def _draw_regions(d):
@@ -65,7 +67,9 @@ CASES = {
     "pairs": Case(_pairs, _draw_pairs, to_roundoff),
     "in_well": Case(
         _in_well,
-        lambda d: bifurcation_figures.in_well_chaos({0.1: (d["distance"], d["exponent"]), 1.0: (d["distance"], 2 * d["exponent"])}),
+        lambda d: bifurcation_figures.in_well_chaos(
+            {0.1: (d["distance"], d["exponent"]), 1.0: (d["distance"], 2 * d["exponent"])}
+        ),
         to_roundoff,
     ),
     "accumulations": Case(_accumulations, _draw_accumulations, to_roundoff),

@@ -1,33 +1,25 @@
-"""What becomes of a family some of whose members have no answer: an error, or NaN for those alone and a warning."""
+"""A family some of whose members have no answer: NaN for those alone, and one warning, where that is asked for."""
 
 import warnings
 
 import numpy as np
 
-from . import checks
-from .errors import DuffingError, LostWorkerError
-
-POLICIES = ("raise", "nan")
+from ..errors import DuffingError, LostWorkerError
 
 
-def answers(function, osc, rows, on_failure="raise"):
-    """function(members) for all N members of a family: array (*rows, N).
+def answers(function, osc, rows):
+    """function(members) for all N members of a family: array (*rows, N), NaN for those without an answer.
 
     function : takes an index array (n,) of members and returns an array (*rows, n), or raises a DuffingError
-    on_failure : "raise", or "nan": members without an answer get NaN, and one warning says how many and why the first
-
-    Raises ValueError for an unknown policy, and what the function raises.
+    One warning says how many have none and why the first. Raises what else the function raises.
     """
-    members = np.arange(checks.model(osc).columns().shape[1])
-    if checks.choice("on_failure", on_failure, POLICIES) == "raise":
-        return function(members)
-    result = attempted(function, members, rows)
+    result = attempted(function, np.arange(osc.columns().shape[1]), rows)
     announce(result, osc, function)
     return result
 
 
 def attempted(function, members, rows):
-    """As `answers` with "nan", in silence. A family that fails is halved until those that fail stand alone: a member's
+    """As `answers`, in silence. A family that fails is halved until those that fail stand alone: a member's
     numbers do not depend on its company, so the others' are what they would have been."""
     try:
         return function(members)
