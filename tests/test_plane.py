@@ -92,10 +92,9 @@ def test_two_exponents_are_compared_where_both_have_lasting_chaos():
 
 
 def test_agreement_counts_cells_between_lines():
-    """Two columns, four rows; between the lines 1.5 and 3.5 lie rows 2 and 3."""
-    found = plane.Borders(None, np.array([1.5, 1.5]), np.array([1.0, 1.4]), np.array([3.5, 3.5]))
-    shares = np.array([[0, 1], [1, 1], [0, 1], [0, 0]])
-    inside, filled = plane.agreement((0.0, 1.0), (0.0, 2.0, 3.0, 9.0), shares, (0.0, 1.0), found)
-    assert (inside, filled) == (pytest.approx(1.0), pytest.approx(0.75))
-    far = np.array([[0, 0], [0, 0], [0, 0], [1, 1]])
-    assert plane.agreement((0.0, 1.0), (0.0, 2.0, 3.0, 9.0), far, (0.0, 1.0), found) == (0.0, 0.0)
+    """Two columns, six rows; between the lines 2.5 and 4.5 lie the rows 3 and 4, near them 2 and 5."""
+    found = plane.Borders(None, np.array([2.5, 2.5]), np.array([1.0, 2.4]), np.array([4.5, 4.5]))
+    mu, x = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0), (0.0, 1.0)
+    shares = np.array([[1, 0], [1, 0], [0, 1], [1, 1], [1, 0], [0, 1]])
+    inside, filled = plane.agreement(x, mu, shares, x, found)
+    assert (inside, filled) == (pytest.approx(5 / 7), pytest.approx(3 / 4))

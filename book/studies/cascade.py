@@ -8,7 +8,7 @@ from duffing.errors import ConvergenceError
 from duffing.flow import integrate, stroboscopic_times
 from duffing.lyapunov import lyapunov_spectrum
 from duffing.melnikov import critical_amplitude
-from duffing.orbits.bifurcations import FLIP, FOLD, bifurcations, orbit_branches, switched
+from duffing.orbits.bifurcations import FLIP, FOLD, bifurcations, orbit_branches, switch_branches
 from duffing.oscillator import Duffing
 from duffing.transients.lifetimes import lifetimes, returns
 
@@ -77,7 +77,7 @@ def cascade(alpha, omega, p, doublings=2):
     for number in range(doublings):
         away = 0.01 / 2.5**number  # the branch of 2^k periods is the shorter, the larger k
         steps = {"distance": away, "step": away, "largest": 0.02, "smallest": 1e-7, "points": 60}
-        found = bifurcations(switched(now, bounds=(0.01, 0.9), **steps))
+        found = bifurcations(switch_branches(now, bounds=(0.01, 0.9), **steps))
         flips.append(_first(found, FLIP, osc))
         now = [next(one for one in points if one.kind == FLIP) for points in found]
     return Cascade(fold, np.array(flips), np.array([one.state for one in now]).T)

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from book.figures import bifurcations as bifurcation_figures
 from book.figures import plane as figures
 from book.studies import plane as study
 
@@ -48,29 +47,8 @@ def _draw_pairs(d):
     return figures.pairs({(0.14, 1.05): one, (0.1, 1.0): one})
 
 
-def _in_well():
-    return {"distance": np.arange(5) * 1e-4, "exponent": np.array([0.01, 0.02, -0.01, 0.03, np.nan])}
-
-
-def _accumulations():
-    return {"x": np.array([0.1, 0.5, 1.0]), "ratio": np.array([1.1, 0.9, 1.4])}
-
-
-def _draw_accumulations(d):
-    curves = {0.1: (d["x"], d["ratio"]), 1.0: (d["x"], 1.5 * d["ratio"])}
-    return bifurcation_figures.accumulations((d["x"], d["ratio"] ** 2), curves, {0.1: (d["x"], d["ratio"][::-1])})
-
-
 CASES = {
     "regions": Case(_regions, _draw_regions, to_roundoff),
     "apexes": Case(_apexes, _draw_apexes, to_roundoff),
     "pairs": Case(_pairs, _draw_pairs, to_roundoff),
-    "in_well": Case(
-        _in_well,
-        lambda d: bifurcation_figures.in_well_chaos(
-            {0.1: (d["distance"], d["exponent"]), 1.0: (d["distance"], 2 * d["exponent"])}
-        ),
-        to_roundoff,
-    ),
-    "accumulations": Case(_accumulations, _draw_accumulations, to_roundoff),
 }
