@@ -17,7 +17,7 @@ from duffing.transients.lifetimes import lifetimes
 from ..remember import remembered
 from .accuracy import CURVES, integrator
 from .cascade import CHAOTIC, cascade, small_folds
-from .transients import between
+from .transients import starts_between_wells
 
 # Pairs (alpha, omega) under which the paper's text has been read; the first is the one adopted.
 PAIRS = ((0.1, 1.0), (0.14, 1.05), (0.16, 1.175), (0.15, 1.175), (0.05, 1.3), (0.095, 1.2625))
@@ -117,7 +117,7 @@ class Lasting(NamedTuple):
 def lasting(alpha, omega, p, mu, columns=4, rows=2, periods=800, last=150):
     """The Lasting of columns x rows initial conditions: lambda_1 over the `last` periods after `periods` of those that
     have not settled by then. alpha, omega and mu broadcast; p : one number."""
-    osc, state = oscillators(alpha, omega, p, mu), 1.2 * between(columns, rows)
+    osc, state = oscillators(alpha, omega, p, mu), 1.2 * starts_between_wells(columns, rows)
     n, m = osc.columns().shape[1], state.shape[1]
     wide, options = osc.repeated(m), integrator(p, steps_per_period=STEPS)
     lived = lifetimes(wide, np.tile(state, n), periods, **options)
