@@ -1,0 +1,105 @@
+"""The unstable manifold: a curve near the saddle orbit by cones, and a piece of it flown to its crossing of v = 0."""
+
+from dataclasses import dataclass
+
+from flint import arb, arb_mat
+
+from .crossing import to_crossing, to_phase
+from .lohner import solution_set
+from .oscillator import NotProved, around
+from .saddle import ORDERS, ZERO, Saddle, columns, saddle
+
+ORDERS_POINT, ORDERS_PIECE = (18, 8), (12, 10)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The unstable manifold near the saddle orbit at phase 0, for each mu of the saddle's interval.
+
+    The points z*(mu) + E (xi, h(xi)), |xi| <= r, with |h| <= L |xi| and |h'| <= L, E the saddle's frame; one turn of
+    the half map takes xi to at most `factor` |xi|.
+    """
+
+    osc: object
+    saddle: Saddle
+    r: arb
+    L: arb
+    factor: arb
+
+
+def local_curve(osc, mu, spread, r):
+    """The Curve of an oscillator within r; mu, r : exact balls. Raises NotProved.
+
+    With M the derivative of the half map over the box, [[a, b], [c, d]] in the frame: the cone |eta| <= L |xi| is
+    mapped into itself and stretched, and the box covers itself (in by eta, out by xi). The graph transform does the rest.
+    """
+    base = saddle(osc, mu, spread)
+    C = _launch_matrix(base)
+    start = _start(base, (arb(0), arb(0)), (around(r), around(r), spread), C)
+    end = to_phase(osc, start, 1, ORDERS)
+    M = base.frame.inv() * -columns(end.derivative(), 0, 2)
+    a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))
+    least = M[0, 0].abs_lower()
+    L = arb(0)
+    for _ in range(4):
+        L = (1.01 * (c + d * L) / (least - b * L)).upper()
+    for step, holds in (
+        ("the cone is mapped into itself", c + d * L < L * (least - b * L)),
+        ("vectors of the cone are stretched", least - b * L > 1),
+        ("the box is left through xi", (least - b) * r > r),
+        ("the box is entered through eta", c + d < 1),
+    ):
+        if not holds:
+            raise NotProved(f"{step}: |a| >= {least.str(4)}, b = {b.str(4)}, c = {c.str(4)}, d = {d.str(4)}")
+    return Curve(osc, base, r, L, (a + b * L).upper())
+
+
+def _launch_matrix(base):
+    E, slope = base.frame, base.slope.mid()
+    return arb_mat([[E[0, 0], E[0, 1], slope[0, 0]], [E[1, 0], E[1, 1], slope[1, 0]], [0, 0, 1]])
+
+
+def _start(base, point, spread, C):
+    """The set z*(mu') + E (point + spread[:2]) for mu' = mu + spread[2]."""
+    centre = base.z.mid() + base.frame * arb_mat([[value] for value in point])
+    m = centre.mid()
+    drift = base.slope - base.slope.mid()
+    error = base.z - base.z.mid() + (centre - m) + drift * spread[2]
+    derivative_error = arb_mat([[0, 0, drift[0, 0]], [0, 0, drift[1, 0]], [0, 0, 0]])
+    return solution_set((m[0, 0], m[1, 0], base.mu), spread, C, (error[0, 0], error[1, 0], 0), derivative_error)
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A piece of the manifold where it crosses v = 0.
+
+    t, x : of the piece's middle at mu; time : of the whole; slope : dx/dt along the piece; by_mu : dx/dmu at fixed t;
+    rate : dt/dxi; F : the force there.
+    """
+
+    t: arb
+    x: arb
+    time: arb
+    slope: arb
+    by_mu: arb
+    rate: arb
+    F: arb
+
+
+def fly(curve, low, high):
+    """The Flight of the piece low <= xi <= high (exact balls), for each mu of the interval. Raises NotProved."""
+    base, C = curve.saddle, _launch_matrix(curve.saddle)
+    middle = ((low + high) / 2).mid()
+    slack = around((curve.L * middle).upper())
+    point = to_crossing(curve.osc, _start(base, (middle, 0), (arb(0), slack, arb(0)), C), ORDERS_POINT)
+    half, slack = around(max(high - middle, middle - low).upper()), around((curve.L * high).upper())
+    whole = to_crossing(curve.osc, _start(base, (middle, 0), (half, slack, base.spread), C), ORDERS_PIECE)
+    V, tilt = whole.derivative, around(curve.L)
+    u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
+    rate = -u_v / whole.F
+    if not (whole.F < 0 and whole.rate_is_definite if False else whole.F < 0):
+        raise NotProved(f"F < 0 where v = 0: F = {whole.F.str(5)}")
+    if rate.contains(0):
+        raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")
+    slope = -u_x * whole.F / u_v
+    return Flight(point.t, point.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate, whole.F)

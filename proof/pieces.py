@@ -1,0 +1,103 @@
+"""A fundamental domain of the manifold in pieces, as numbers that can be written down: exact rationals.
+
+A piece's ends are whole numbers n, xi = n r / 2^40. Each piece is flown to v = 0 by itself, so that they can be
+flown on several cores, and any of them anew.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from flint import arb, ctx
+
+from .manifold import fly, local_curve
+from .oscillator import Oscillator, ball
+from .rational import Interval, Fraction, point, read, written
+
+UNIT = 2**40
+BITS = 96
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Which manifold: oscillator (its direction included), forcing amplitudes mu +- spread, r = 2^-depth."""
+
+    osc: Oscillator
+    mu: Fraction
+    spread: Fraction
+    depth: int
+
+    def reversed(self):
+        """The stable manifold's setting."""
+        return replace(self, osc=self.osc.reversed())
+
+
+@dataclass(frozen=True)
+class Piece:
+    """The ends in units of r / 2^40, and where it crosses v = 0: Intervals of manifold.Flight's numbers.
+
+    t, x : the middle's, at mu; time : the whole; slope : dx/dt; by_mu : dx/dmu at fixed t; rate : dt/dxi.
+    """
+
+    low: int
+    high: int
+    t: Interval
+    x: Interval
+    time: Interval
+    slope: Interval
+    by_mu: Interval
+    rate: Interval
+
+
+@lru_cache(maxsize=4)
+def curve(setting):
+    """The local curve of a setting. The middle of the mu is rounded to a ball's exact middle, the spread made up."""
+    with ctx.workprec(BITS):
+        mu = ball(setting.mu)
+        spread = arb(0, (ball(setting.spread) + (mu - mu.mid())).abs_upper()) if setting.spread else mu - mu.mid()
+        return local_curve(setting.osc, mu.mid(), spread, arb(2) ** -setting.depth)
+
+
+def factor(setting):
+    """How much a half turn stretches the curve at most, as written interval."""
+    return written(curve(setting).factor)
+
+
+def flown(setting, low, high):
+    """The record of a piece: its ends and six [middle, radius] pairs, rounded outward. Raises NotProved."""
+    with ctx.workprec(BITS):
+        here = curve(setting)
+        flight = fly(here, here.r * low / UNIT, here.r * high / UNIT)
+        balls = (flight.t, flight.x, flight.time, flight.slope, flight.by_mu, flight.rate)
+        return [low, high, *map(written, balls)]
+
+
+def piece(record):
+    """The Piece of a record."""
+    return Piece(*record[:2], *map(read, record[2:]))
+
+
+def first_pieces(stretch, width):
+    """Ends of pieces that cover a fundamental domain: xi from r down to below r / stretch^2, by 1/width each."""
+    ends, last = [UNIT], UNIT / Fraction(stretch) ** 2
+    while ends[-1] > last:
+        ends.append(ends[-1] * (width - 1) // width)
+    return ends[::-1]
+
+
+def gap(unstable, stable, turn, spread=Fraction(0)):
+    """A lower bound of x_s - x_u at all phases that two pieces share, and for all mu of the interval.
+
+    stable : a Piece of the reversed oscillator, that is time and slope with the other sign; turn : the whole number
+    of periods between them as Interval. None where they share no phase. By the mean value theorem:
+
+        x_s - x_u = x_s(t_s) - x_u(t_u) + S_s (c - t_s) - S_u (c - t_u) + (S_s - S_u)(t - c) + (B_s - B_u)(mu' - mu)
+    """
+    backward = turn - stable.time
+    low, high = max(unstable.time.low, backward.low), min(unstable.time.high, backward.high)
+    if low > high:
+        return None
+    c, zero = point((low + high) / 2), point(0)
+    middle = stable.x - unstable.x + stable.slope * ((turn - stable.t) - c) + unstable.slope * (unstable.t - c)
+    reach = Interval((low - high) / 2, (high - low) / 2)
+    turning = (zero - stable.slope - unstable.slope) * reach
+    return (middle + turning + (stable.by_mu - unstable.by_mu) * Interval(-spread, spread)).low

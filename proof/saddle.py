@@ -1,0 +1,97 @@
+"""The saddle orbit: existence, uniqueness and hyperbolicity, for every forcing amplitude of an interval.
+
+The equation is unchanged by (x, v, t) -> (-x, -v, t + pi / omega). A fixed point of Q = -(flow over half a period)
+is therefore an orbit of the forcing's period with x(t + pi / omega) = -x(t). Krawczyk's test finds it.
+"""
+
+from dataclasses import dataclass
+
+from flint import arb, arb_mat
+
+from .crossing import to_phase
+from .lohner import IDENTITY, solution_set
+from .oscillator import NotProved, around
+
+ORDERS = (20, 16)
+ZERO = arb_mat(3, 3)
+ONE = arb_mat([[1, 0], [0, 1]])
+
+
+@dataclass(frozen=True)
+class Saddle:
+    """The saddle orbit at phase 0 for the forcing amplitudes mu + spread.
+
+    z : (x, v) at mu, a ball; slope : dz/dmu over the interval; box : the radius within which it is the only one;
+    frame : columns near the eigenvectors of Q, unstable first, exact; eigenvalues : nearly.
+    """
+
+    mu: arb
+    spread: arb
+    z: arb_mat
+    slope: arb_mat
+    box: arb
+    frame: arb_mat
+    eigenvalues: tuple
+
+
+def half_map(osc, z, mu, spread, drift):
+    """Q at the states z + drift * spread[2] + spread[:2] for mu + spread[2]: where spread = 0, and its derivative."""
+    C = arb_mat([[1, 0, drift[0, 0]], [0, 1, drift[1, 0]], [0, 0, 1]])
+    middle, whole = (
+        to_phase(osc, solution_set((z[0, 0], z[1, 0], mu), parameters, C, (0, 0, 0), ZERO), 1, ORDERS)
+        for parameters in ((0, 0, 0), spread)
+    )
+    slope = -whole.derivative()
+    return -_rows(arb_mat([[value] for value in middle.box()])), columns(slope, 0, 2), columns(slope, 2, 3)
+
+
+def _rows(matrix):
+    return arb_mat(matrix.tolist()[:2])
+
+
+def columns(matrix, first, last):
+    """Some columns of the rows x and v."""
+    return arb_mat([row[first:last] for row in matrix.tolist()[:2]])
+
+
+def saddle(osc, mu, spread=arb(0)):
+    """The Saddle of an oscillator. mu : exact ball; spread : ball around 0. Raises NotProved."""
+    nothing, z = arb_mat(2, 1), arb_mat(2, 1)
+    for _ in range(12):
+        image, slope, by_mu = half_map(osc, z, mu, (0, 0, 0), nothing)
+        inverse = (ONE - slope).inv().mid()
+        z = (z - inverse * (z - image)).mid()
+    drift, radius = (inverse * by_mu).mid(), arb("0.001").upper()
+    box = arb_mat([[around(radius)]] * 2)
+    wide = held = _krawczyk(osc, z, mu, spread, drift, inverse, box)
+    if not all(box[i, 0].contains_interior(wide[i, 0]) for i in (0, 1)):
+        raise NotProved(f"Krawczyk: the box of radius {radius.str(3)} has an image of {wide[0, 0].str(3)}")
+    for _ in range(4):  # what is fixed in a box lies in the box's image
+        wide = _krawczyk(osc, z, mu, spread, drift, inverse, wide)
+        held = _krawczyk(osc, z, mu, arb(0), drift, inverse, held)
+    _, slope, by_mu = half_map(osc, z, mu, (wide[0, 0], wide[1, 0], spread), drift)
+    drift = drift + (ONE - slope).inv() * (by_mu - drift)
+    return Saddle(mu, spread, z + held, drift, radius, *_eigenframe(half_map(osc, z, mu, (0, 0, 0), nothing)[1].mid()))
+
+
+def _krawczyk(osc, z, mu, spread, drift, inverse, box):
+    """Krawczyk's operator: z + drift (mu' - mu) + box is mapped to the like with the box returned, for each mu'.
+
+    Where the box returned lies inside the box, there is exactly one fixed point of Q in it.
+    """
+    image, slope, by_mu = half_map(osc, z, mu, (box[0, 0], box[1, 0], spread), drift)
+    return inverse * (image - z) + inverse * (by_mu - drift) * spread + (ONE - inverse * (ONE - slope)) * box
+
+
+def _eigenframe(M):
+    """Points near the eigenvectors of a 2 x 2 matrix with two real eigenvalues, the larger first."""
+    half, det = (M[0, 0] + M[1, 1]) / 2, M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
+    root = (half * half - det).sqrt()
+    large = half - root if half < 0 else half + root
+    values = [large.mid(), (det / large).mid()]
+    columns = []
+    for value in values:
+        a, b = M[0, 1].mid(), (value - M[0, 0]).mid()
+        size = (a * a + b * b).sqrt() * (1 if a > 0 else -1)
+        columns.append(((a / size).mid(), (b / size).mid()))
+    return arb_mat([[columns[0][i], columns[1][i]] for i in (0, 1)]), tuple(values)
