@@ -97,7 +97,7 @@ def fly(curve, low, high):
     V, tilt = whole.derivative, around(curve.L)
     u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
     rate = -u_v / whole.F
-    if not (whole.F < 0 and whole.rate_is_definite if False else whole.F < 0):
+    if not whole.F < 0:
         raise NotProved(f"F < 0 where v = 0: F = {whole.F.str(5)}")
     if rate.contains(0):
         raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")

@@ -8,9 +8,10 @@ stable manifold of the oscillator is the unstable one of `reversed()`, mirrored:
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from operator import mul
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 
 class NotProved(ArithmeticError):
@@ -47,7 +48,7 @@ class Oscillator:
     @property
     def coefficients(self):
         """(damping, delta, gamma) as balls; the damping carries the direction of time."""
-        return tuple(ball(value) for value in (self.direction * self.alpha, self.delta, self.gamma))
+        return _balls(self.direction * self.alpha, self.delta, self.gamma, ctx.prec)
 
 
 def exact(name, value):
@@ -58,6 +59,11 @@ def exact(name, value):
         return Fraction(value)
     except (ValueError, ZeroDivisionError):
         raise ValueError(f"{name} = {value!r}: must be a rational number") from None
+
+
+@lru_cache(maxsize=64)
+def _balls(*values):
+    return tuple(map(ball, values[:-1]))
 
 
 def ball(value):

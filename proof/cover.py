@@ -1,0 +1,88 @@
+"""No primary intersection: the pieces of both manifolds that share a phase are apart; those that are not are halved."""
+
+from bisect import bisect_left
+
+from .oscillator import NotProved
+from .pieces import factor, first_pieces, flown, gap, piece
+from .rational import period, point, read
+
+FINEST = 2**12  # a piece is not halved below this many units
+
+
+def attempt(task):
+    """The record of a piece (setting, low, high), or what failed: for `map` over processes."""
+    try:
+        return flown(*task)
+    except NotProved as failure:
+        return str(failure)
+
+
+def shared(unstable, stables, turn, spread):
+    """(j, gap) of the stable pieces that share a phase with an unstable one, at any number of turns.
+
+    stables : Pieces in the order of xi, so that their times fall.
+    """
+    longest = max(s.time.high - s.time.low for s in stables)
+    starts = [-s.time.high for s in stables]  # rising
+    last = stables[0].time.high
+    turns = range(int((unstable.time.low + stables[-1].time.low) / turn.high), int((unstable.time.high + last) / turn.low) + 2)
+    for k in turns:
+        shift = turn * point(k)
+        first = bisect_left(starts, unstable.time.low - shift.high - longest)
+        for j in range(first, len(stables)):
+            if starts[j] > unstable.time.high - shift.low:
+                break
+            apart = gap(unstable, stables[j], shift, spread)
+            if apart is not None:
+                yield j, apart
+
+
+def domain(setting, width, each=map, tick=lambda: None):
+    """Records of pieces that cover a fundamental domain of one manifold, halved until each is a graph over the phase."""
+    ends = first_pieces(read(factor(setting)).high, width)
+    return flown_or_halved(setting, list(zip(ends, ends[1:], strict=False)), each, tick)
+
+
+def flown_or_halved(setting, todo, each, tick):
+    """Records of the pieces (low, high), or of their halves where the whole could not be flown."""
+    records = []
+    while todo:
+        halves = []
+        for (low, high), result in zip(todo, each(attempt, [(setting, *ends) for ends in todo]), strict=True):
+            tick()
+            if isinstance(result, str):
+                halves += _halves(low, high, result)
+            else:
+                records.append(result)
+        todo = halves
+    return sorted(records)
+
+
+def _halves(low, high, why):
+    middle = (low + high) // 2
+    if high - low < 2 * FINEST:
+        raise NotProved(f"a piece of relative width {(high - low) / low:.1e}: {why}")
+    return [(low, middle), (middle, high)]
+
+
+def cover(setting, width=20, each=map, tick=lambda: None):
+    """Records (unstable, stable) whose pairs are all apart, and the least gap. Raises NotProved."""
+    sides = [setting, setting.reversed()]
+    records = [domain(side, width, each, tick) for side in sides]
+    turn = period(setting.osc.omega)
+    while True:
+        unstable, stable = ([piece(record) for record in side] for side in records)
+        apart, close = [], [set(), set()]
+        for i, u in enumerate(unstable):
+            for j, least in shared(u, stable, turn, setting.spread):
+                apart.append(least)
+                if least <= 0:
+                    s = stable[j]
+                    coarser = u.slope.radius * u.time.radius >= s.slope.radius * s.time.radius
+                    close[0 if coarser else 1].add(i if coarser else j)
+        if not any(close):
+            return records, min(apart)
+        for side, which, rows in zip(sides, close, records, strict=True):
+            why = f"{len(which)} pairs of pieces are not apart: gap {float(min(apart)):.1e}"
+            todo = [half for i in which for half in _halves(*rows[i][:2], why)]
+            rows[:] = sorted([row for i, row in enumerate(rows) if i not in which] + flown_or_halved(side, todo, each, tick))
