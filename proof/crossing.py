@@ -6,7 +6,7 @@ from fractions import Fraction
 from flint import arb, arb_mat, arb_poly
 
 from .lohner import enclose, growth, step
-from .oscillator import NotProved, around, ball, force, stiffness, taylor
+from .oscillator import NotProved, around, ball, drive, force, stiffness, taylor
 
 LONGEST = Fraction(40)  # half periods that a flight may take
 
@@ -45,7 +45,7 @@ def to_phase(osc, now, turn, orders):
 
 
 def to_crossing(osc, now, orders):
-    """The first crossing of v = 0 with x beyond the well, and with x > minus that before it.
+    """(Crossing of the whole, of the middle): the first one of v = 0 with x beyond the well, x > minus that before it.
 
     Asserted: on every step v > 0 or x is within the wells; from the first step where that fails F < 0, so that v falls
     and the zero is one. Raises NotProved.
@@ -61,7 +61,7 @@ def to_crossing(osc, now, orders):
             late = _newton(osc, now)
             if late <= (after.turn - now.turn).numerator * arb.pi() / (after.turn - now.turn).denominator / ball(osc.omega):
                 landed, _ = step(osc, now, late, orders, (now.turn, late))
-                return _land(osc, landed)
+                return _land(osc, landed, 0), _land(osc, landed, 1)
         now = after
     raise NotProved("no crossing of v = 0 in forty half periods")
 
@@ -73,16 +73,16 @@ def _phases(osc, now, after):
 def _newton(osc, now):
     """The time until the middle solution crosses, nearly: a point, not proved and not in need of it."""
     x, v, mu = (now.m[i, 0] for i in range(3))
-    series = arb_poly([c.mid() for c in taylor(osc, x, v, mu, now.phase(osc).mid(), 20)[0]]).derivative()
+    series = arb_poly([c.mid() for c in taylor(osc, x, v, mu, drive(osc, now.phase(osc).mid(), 20), 20)[0]]).derivative()
     slope, late = series.derivative(), arb(0)
     for _ in range(8):
         late = (late - series(late) / slope(late)).mid()
     return late
 
 
-def _land(osc, now):
+def _land(osc, now, part):
     """v is nearly zero: the crossing lies within beta of now, and there is one."""
-    x, v, mu = now.box()
+    x, v, mu = now.box(part)
     at = force(osc, x, v, mu, now.phase(osc)).abs_lower()
     beta = (v.abs_upper() / at * 1.05).upper() + 1e-60
     for _ in range(6):

@@ -9,7 +9,8 @@ gathered. A step replaces the flow by its Taylor polynomial at m and the derivat
 
     Q' r' = (y - m') + A Q r + (A C - C') r0,    Q' S' = A Q S + (A C - C'),    m' = mid y, C' = mid A C,
 
-with Q' turned along the longer column of A Q, so that the errors are stretched but not wrapped [Lohner].
+with Q' turned along the longer column of A Q, so that the errors are stretched but not wrapped [Lohner]. r0 and r have
+two columns: the whole set, and a small part of it about its middle that is carried along with less error.
 """
 
 from dataclasses import dataclass
@@ -17,9 +18,10 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, arb_poly
 
-from .oscillator import NotProved, around, ball, force, stiffness, taylor
+from .oscillator import NotProved, around, ball, drive, force, stiffness, taylor
 
 IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+BOTH = arb_mat([[1, 1]])
 
 
 @dataclass(frozen=True)
@@ -43,9 +45,10 @@ class SolutionSet:
     turn: Fraction = Fraction(0)
     late: arb = arb(0)
 
-    def box(self):
-        """(x, v, mu) in balls."""
-        return [row[0] for row in (self.m + self.C * self.r0 + self.Q * self.r).tolist()]
+    def box(self, part=0):
+        """(x, v, mu) in balls, of the whole (part 0) or of the middle (1)."""
+        boxes = self.C * self.r0 + self.Q * self.r
+        return [self.m[i, 0] + boxes[i, part] for i in range(3)]
 
     def derivative(self):
         """d(x, v, mu) / d r0, a matrix of balls."""
@@ -56,10 +59,11 @@ class SolutionSet:
         return ball(self.turn) * arb.pi() + ball(osc.omega) * self.late
 
 
-def solution_set(point, spread, C, error, derivative_error):
-    """{point + C r0 + error}, r0 in `spread`; derivative by r0 in C + derivative_error."""
-    matrices = arb_mat([[value] for value in spread]), arb_mat(IDENTITY), arb_mat([[value] for value in error])
-    return SolutionSet(arb_mat([[value] for value in point]), C, *matrices, derivative_error)
+def solution_set(point, whole, middle, C, error, derivative_error):
+    """{point + C r0 + error}, r0 in `whole`, its part with r0 in `middle`; derivative by r0 in C + derivative_error."""
+    r0 = arb_mat([list(pair) for pair in zip(whole, middle, strict=True)])
+    r = arb_mat([[value, value] for value in error])
+    return SolutionSet(arb_mat([[value] for value in point]), C, r0, arb_mat(IDENTITY), r, derivative_error)
 
 
 def enclose(osc, box, phase, span):
@@ -96,10 +100,11 @@ def step(osc, start, h, orders, late=None):
     span = arb(length / 2, (length / 2).upper())
     held = enclose(osc, box, phase, span)
     x, v, mu = (start.m[i, 0] for i in range(3))
-    remainder, slopes = taylor(osc, held.x, held.v, box[2], phase + ball(osc.omega) * span, order + 1, tangents + 1)
-    point, _ = taylor(osc, x, v, mu, phase, order)
+    now, meanwhile = drive(osc, phase, order), drive(osc, phase + ball(osc.omega) * span, order + 1)
+    remainder, slopes = taylor(osc, held.x, held.v, box[2], meanwhile, order + 1, tangents + 1)
+    point, _ = taylor(osc, x, v, mu, now, order)
     y = _sum(point, remainder[order + 1], h)
-    _, columns = taylor(osc, *box, phase, tangents, tangents)
+    _, columns = taylor(osc, *box, now, tangents, tangents)
     tail = arb_mat([[b[tangents + 1] for b in slopes], [0, 0, 0], [0, 0, 0]]) * growth(osc, held, length)
     rows = [_sum(b, tail[0, j], h) for j, b in enumerate(columns)]
     A = arb_mat([[row[0] for row in rows], [row[1] for row in rows], [0, 0, 1]])
@@ -124,5 +129,5 @@ def _transport(start, A, y, moved):
     Q = arb_mat([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     square = c * c + s * s
     inverse = arb_mat([[c / square, s / square, 0], [-s / square, c / square, 0], [0, 0, 1]])
-    K, D = inverse * AQ, inverse * (AC - C)
-    return SolutionSet(m, C, start.r0, Q, inverse * (y - m) + K * start.r + D * start.r0, K * start.S + D, turn, late)
+    K, D, new = inverse * AQ, inverse * (AC - C), inverse * (y - m) * BOTH
+    return SolutionSet(m, C, start.r0, Q, new + K * start.r + D * start.r0, K * start.S + D, turn, late)

@@ -9,7 +9,7 @@ from .lohner import solution_set
 from .oscillator import NotProved, around
 from .saddle import ORDERS, ZERO, Saddle, columns, saddle
 
-ORDERS_POINT, ORDERS_PIECE = (18, 8), (12, 10)
+ORDERS_PIECE = (16, 10)
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def local_curve(osc, mu, spread, r):
     """
     base = saddle(osc, mu, spread)
     C = _launch_matrix(base)
-    start = _start(base, (arb(0), arb(0)), (around(r), around(r), spread), C)
+    start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), C)
     end = to_phase(osc, start, 1, ORDERS)
     M = base.frame.inv() * -columns(end.derivative(), 0, 2)
     a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))
@@ -59,14 +59,15 @@ def _launch_matrix(base):
     return arb_mat([[E[0, 0], E[0, 1], slope[0, 0]], [E[1, 0], E[1, 1], slope[1, 0]], [0, 0, 1]])
 
 
-def _start(base, point, spread, C):
-    """The set z*(mu') + E (point + spread[:2]) for mu' = mu + spread[2]."""
-    centre = base.z.mid() + base.frame * arb_mat([[value] for value in point])
+def _start(base, xi, whole, middle, C):
+    """The set z*(mu') + E (xi + r0[0], r0[1]) for mu' = mu + r0[2], r0 in `whole`, and its part with r0 in `middle`."""
+    centre = base.z.mid() + base.frame * arb_mat([[xi], [0]])
     m = centre.mid()
     drift = base.slope - base.slope.mid()
-    error = base.z - base.z.mid() + (centre - m) + drift * spread[2]
+    error = base.z - base.z.mid() + (centre - m) + drift * whole[2]
     derivative_error = arb_mat([[0, 0, drift[0, 0]], [0, 0, drift[1, 0]], [0, 0, 0]])
-    return solution_set((m[0, 0], m[1, 0], base.mu), spread, C, (error[0, 0], error[1, 0], 0), derivative_error)
+    start = solution_set((m[0, 0], m[1, 0], base.mu), whole, middle, C, (error[0, 0], error[1, 0], 0), derivative_error)
+    return start
 
 
 @dataclass(frozen=True)
@@ -89,11 +90,10 @@ class Flight:
 def fly(curve, low, high):
     """The Flight of the piece low <= xi <= high (exact balls), for each mu of the interval. Raises NotProved."""
     base, C = curve.saddle, _launch_matrix(curve.saddle)
-    middle = ((low + high) / 2).mid()
-    slack = around((curve.L * middle).upper())
-    point = to_crossing(curve.osc, _start(base, (middle, 0), (arb(0), slack, arb(0)), C), ORDERS_POINT)
-    half, slack = around(max(high - middle, middle - low).upper()), around((curve.L * high).upper())
-    whole = to_crossing(curve.osc, _start(base, (middle, 0), (half, slack, base.spread), C), ORDERS_PIECE)
+    xi = ((low + high) / 2).mid()
+    half, slack = around(max(high - xi, xi - low).upper()), (curve.L * high).upper()
+    start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), 0), C)
+    whole, middle = to_crossing(curve.osc, start, ORDERS_PIECE)
     V, tilt = whole.derivative, around(curve.L)
     u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
     rate = -u_v / whole.F
@@ -102,4 +102,4 @@ def fly(curve, low, high):
     if rate.contains(0):
         raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")
     slope = -u_x * whole.F / u_v
-    return Flight(point.t, point.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate, whole.F)
+    return Flight(middle.t, middle.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate, whole.F)

@@ -14,6 +14,9 @@ from operator import mul
 from flint import arb, ctx, fmpq
 
 
+ZERO, ONE = arb(0), arb(1)
+
+
 class NotProved(ArithmeticError):
     """An inequality that the proof needs did not come out; the message says which step and the width it had."""
 
@@ -92,7 +95,7 @@ def stiffness(osc, x, v):
 def drive(osc, phase, order):
     """Taylor coefficients of cos(omega t + phase) in t."""
     c, s, omega = phase.cos(), phase.sin(), ball(osc.omega)
-    cycle, coefficients, power = (c, -s, -c, s), [], arb(1)
+    cycle, coefficients, power = (c, -s, -c, s), [], ONE
     for k in range(order):
         coefficients.append(cycle[k % 4] * power)
         power = power * omega / (k + 1)
@@ -101,17 +104,17 @@ def drive(osc, phase, order):
 
 def _product(a, b, k):
     """Coefficient k of the product of two series."""
-    return sum(map(mul, a[: k + 1], b[k::-1]), arb(0))
+    return sum(map(mul, a, b[k::-1]), ZERO)
 
 
-def taylor(osc, x, v, mu, phase, order, tangents=0):
+def taylor(osc, x, v, mu, cosine, order, tangents=0):
     """Taylor coefficients of x(t) up to `order`, and up to `tangents` of its derivatives by x, v and mu.
 
     By the recurrence that the equation gives: products of series are sums over lower coefficients.
     Those of v(t) are (k + 1) x_(k+1). Returns a list of balls and three such lists (empty when tangents is 0).
+    cosine : what `drive` returns for at least that order.
     """
     damping, delta, gamma = osc.coefficients
-    cosine = drive(osc, phase, order)
     a, rate, square, rate_square = [x, v], [v], [], []
     for k in range(order - 1):
         square.append(_product(a, a, k))
@@ -122,13 +125,17 @@ def taylor(osc, x, v, mu, phase, order, tangents=0):
         pull = delta * a[k] + gamma * _product(square, a, k)
         a.append((mu * cosine[k] - pull - damping * friction) / ((k + 1) * (k + 2)))
         rate.append((k + 2) * a[k + 2])
-    columns = [[arb(1), arb(0)], [arb(0), arb(1)], [arb(0), arb(0)]] if tangents else []
+    if not tangents:
+        return a, []
+    pull = [3 * gamma * value for value in square]
+    pull[0] += delta
+    friction = [3 * damping * value for value in rate_square]
+    columns = [[ONE, ZERO], [ZERO, ONE], [ZERO, ZERO]]
     for number, b in enumerate(columns):
         rate = [b[1]]
         for k in range(tangents - 1):
-            friction = rate[k] if osc.p == 1 else 3 * _product(rate_square, rate, k)
-            pull = delta * b[k] + 3 * gamma * _product(square, b, k)
-            push = cosine[k] if number == 2 else 0
-            b.append((push - pull - damping * friction) / ((k + 1) * (k + 2)))
+            slowing = damping * rate[k] if osc.p == 1 else _product(friction, rate, k)
+            push = cosine[k] if number == 2 else ZERO
+            b.append((push - _product(pull, b, k) - slowing) / ((k + 1) * (k + 2)))
             rate.append((k + 2) * b[k + 2])
     return a, columns

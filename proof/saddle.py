@@ -37,16 +37,10 @@ class Saddle:
 def half_map(osc, z, mu, spread, drift):
     """Q at the states z + drift * spread[2] + spread[:2] for mu + spread[2]: where spread = 0, and its derivative."""
     C = arb_mat([[1, 0, drift[0, 0]], [0, 1, drift[1, 0]], [0, 0, 1]])
-    middle, whole = (
-        to_phase(osc, solution_set((z[0, 0], z[1, 0], mu), parameters, C, (0, 0, 0), ZERO), 1, ORDERS)
-        for parameters in ((0, 0, 0), spread)
-    )
-    slope = -whole.derivative()
-    return -_rows(arb_mat([[value] for value in middle.box()])), columns(slope, 0, 2), columns(slope, 2, 3)
-
-
-def _rows(matrix):
-    return arb_mat(matrix.tolist()[:2])
+    start = solution_set((z[0, 0], z[1, 0], mu), spread, (0, 0, 0), C, (0, 0, 0), ZERO)
+    end = to_phase(osc, start, 1, ORDERS)
+    slope, image = -end.derivative(), arb_mat([[-value] for value in end.box(1)[:2]])
+    return image, columns(slope, 0, 2), columns(slope, 2, 3)
 
 
 def columns(matrix, first, last):
