@@ -9,8 +9,6 @@ from .lohner import solution_set
 from .oscillator import NotProved, around
 from .saddle import ORDERS, ZERO, Saddle, columns, saddle
 
-ORDERS_PIECE = (16, 10)
-
 
 @dataclass(frozen=True)
 class Curve:
@@ -87,13 +85,13 @@ class Flight:
     F: arb
 
 
-def fly(curve, low, high):
+def fly(curve, low, high, orders=(16, 10)):
     """The Flight of the piece low <= xi <= high (exact balls), for each mu of the interval. Raises NotProved."""
     base, C = curve.saddle, _launch_matrix(curve.saddle)
     xi = ((low + high) / 2).mid()
     half, slack = around(max(high - xi, xi - low).upper()), (curve.L * high).upper()
     start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), 0), C)
-    whole, middle = to_crossing(curve.osc, start, ORDERS_PIECE)
+    whole, middle = to_crossing(curve.osc, start, orders)
     V, tilt = whole.derivative, around(curve.L)
     u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
     rate = -u_v / whole.F

@@ -11,7 +11,7 @@ from flint import arb, ctx
 
 from .manifold import fly, local_curve
 from .oscillator import Oscillator, ball
-from .rational import Interval, Fraction, point, read, written
+from .rational import Fraction, Interval, point, read, written
 
 UNIT = 2**40
 BITS = 96
@@ -19,12 +19,16 @@ BITS = 96
 
 @dataclass(frozen=True)
 class Setting:
-    """Which manifold: oscillator (its direction included), forcing amplitudes mu +- spread, r = 2^-depth."""
+    """Which manifold: oscillator (its direction included), forcing amplitudes mu +- spread, r = 2^-depth.
+
+    orders : of the Taylor polynomials and of their derivatives'.
+    """
 
     osc: Oscillator
     mu: Fraction
-    spread: Fraction
-    depth: int
+    spread: Fraction = Fraction(0)
+    depth: int = 13
+    orders: tuple = (16, 10)
 
     def reversed(self):
         """The stable manifold's setting."""
@@ -66,7 +70,7 @@ def flown(setting, low, high):
     """The record of a piece: its ends and six [middle, radius] pairs, rounded outward. Raises NotProved."""
     with ctx.workprec(BITS):
         here = curve(setting)
-        flight = fly(here, here.r * low / UNIT, here.r * high / UNIT)
+        flight = fly(here, here.r * low / UNIT, here.r * high / UNIT, setting.orders)
         balls = (flight.t, flight.x, flight.time, flight.slope, flight.by_mu, flight.rate)
         return [low, high, *map(written, balls)]
 
@@ -84,6 +88,19 @@ def first_pieces(stretch, width):
     return ends[::-1]
 
 
+def inner(setting, piece):
+    """Times that a piece is proved to cross at, not only within: |t'| half the width on both sides of the middle."""
+    half = Fraction(piece.high - piece.low, 2 * UNIT * 2**setting.depth)
+    reach = -piece.rate.high * half
+    return Interval(piece.t.high - reach, piece.t.low + reach)
+
+
+def difference(unstable, stable, turn, time):
+    """x_s - x_u at a time (an Interval) where both pieces cross: the mean value theorem from their middles."""
+    middle = stable.x - unstable.x
+    return middle + stable.slope * ((turn - stable.t) - time) + unstable.slope * (unstable.t - time)
+
+
 def gap(unstable, stable, turn, spread=Fraction(0)):
     """A lower bound of x_s - x_u at all phases that two pieces share, and for all mu of the interval.
 
@@ -96,8 +113,7 @@ def gap(unstable, stable, turn, spread=Fraction(0)):
     low, high = max(unstable.time.low, backward.low), min(unstable.time.high, backward.high)
     if low > high:
         return None
-    c, zero = point((low + high) / 2), point(0)
-    middle = stable.x - unstable.x + stable.slope * ((turn - stable.t) - c) + unstable.slope * (unstable.t - c)
+    middle, zero = difference(unstable, stable, turn, point((low + high) / 2)), point(0)
     reach = Interval((low - high) / 2, (high - low) / 2)
     turning = (zero - stable.slope - unstable.slope) * reach
     return (middle + turning + (stable.by_mu - unstable.by_mu) * Interval(-spread, spread)).low

@@ -1,0 +1,94 @@
+"""The checker: reads a certificate and asserts each theorem's inequalities anew, in exact rational arithmetic.
+
+Checked in full: the pieces cover a fundamental domain of each manifold (the local curve and its stretching are proved
+anew), every pair of pieces at a common phase is apart, the transverse intersection's signs. Not in full: that the
+numbers of a piece hold its flight. A sample of pieces is flown anew, and must come out within the numbers written
+down; `make proof` flies all of them.
+"""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+from random import Random
+
+from .cover import shared
+from .oscillator import NotProved, Oscillator
+from .pieces import UNIT, Setting, factor, flown, piece
+from .rational import period, read
+from .theorems import FINE, transverse
+
+CERTIFICATES = Path(__file__).parent / "certificates"
+
+
+def load(p):
+    """The certificate of the exponent p, as prove() made it."""
+    return json.loads((CERTIFICATES / f"p{p}.json").read_text())
+
+
+def check(certificate, sample=20, seed=0):
+    """Assert the theorems of a certificate; raises NotProved. sample : how many pieces are flown anew.
+
+    Returns (mu_low, mu_high, least gap) as Fractions.
+    """
+    osc = oscillator(certificate)
+    low, high = Fraction(certificate["low"]), Fraction(certificate["high"])
+    if not 0 < low < high:
+        raise NotProved(f"low = {float(low)}, high = {float(high)}: they must be in this order")
+    least = check_below(Setting(osc, low), certificate["below"])
+    transverse(Setting(osc, high, **FINE), certificate["above"])
+    tasks = [
+        (side, record)
+        for setting, part in ((Setting(osc, low), "below"), (Setting(osc, high, **FINE), "above"))
+        for side, name in ((setting, "unstable"), (setting.reversed(), "stable"))
+        for record in (certificate[part][name] if part == "below" else [certificate[part][name]])
+    ]
+    wide = Setting(osc, (low + high) / 2, (high - low) / 2)
+    for side, ends in zip((wide, wide.reversed()), certificate["between"]["ends"], strict=True):
+        covers(side, ends)
+        tasks += [(side, [*pair]) for pair in zip(ends, [*ends[1:], UNIT], strict=True)]
+    chosen = Random(seed).sample(tasks[:-2], sample) if sample < len(tasks) else tasks
+    for side, record in chosen:
+        flown_within(side, record)
+    return low, high, least
+
+
+def oscillator(certificate):
+    """The Oscillator of a certificate."""
+    values = dict(certificate["oscillator"])
+    return Oscillator(int(values.pop("p")), **{name: Fraction(value) for name, value in values.items()})
+
+
+def covers(setting, ends):
+    """Assert that pieces with these lower ends, up to r, cover a fundamental domain."""
+    if not all(a < b for a, b in zip(ends, [*ends[1:], UNIT], strict=True)):
+        raise NotProved("the pieces' ends do not rise to r")
+    stretch = read(factor(setting)).high
+    if ends[0] * stretch**2 > UNIT:
+        raise NotProved(f"the pieces do not cover a fundamental domain: down to {float(Fraction(ends[0], UNIT)):.2e} r only")
+
+
+def check_below(setting, found):
+    """Assert that the pieces of both manifolds cover and are apart at all phases: the least gap."""
+    sides = []
+    for side, name in ((setting, "unstable"), (setting.reversed(), "stable")):
+        pieces = [piece(record) for record in found[name]]
+        covers(side, [one.low for one in pieces])
+        for one, after in zip(pieces, [*pieces[1:], None], strict=True):
+            if one.high != (after.low if after else UNIT):
+                raise NotProved(f"pieces leave a hole after {one.high}")
+            if not one.rate.high < 0:
+                raise NotProved(f"a piece is no graph over the phase: dt/dxi up to {float(one.rate.high):.1e}")
+        sides.append(pieces)
+    unstable, stable = sides
+    apart = [least for one in unstable for _, least in shared(one, stable, period(setting.osc.omega), setting.spread)]
+    if not min(apart) > 0:
+        raise NotProved(f"the manifolds may meet: gap {float(min(apart)):.1e}")
+    return min(apart)
+
+
+def flown_within(setting, record):
+    """Fly a piece anew and assert that it comes out within its record (ends alone: that it is a graph)."""
+    for new, old in zip(flown(setting, *record[:2])[2:], record[2:], strict=False):
+        a, b = read(new), read(old)
+        if not b.low <= a.low <= a.high <= b.high:
+            raise NotProved(f"the piece {record[0]}: flown anew it is at {new}, not within {old}")
