@@ -15,7 +15,7 @@ from .oscillator import Oscillator, exact
 def lines(certificate):
     """JSON with one piece a line."""
     text = json.dumps(certificate, separators=(",", ":"))
-    return text.replace(',[[', ',\n[[').replace('],[', '],\n[').replace('\n["', '["') + "\n"
+    return text.replace(",[[", ",\n[[").replace("],[", "],\n[").replace('\n["', '["') + "\n"
 
 
 def main(exponents):

@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 from random import Random
 
-from .cover import shared
+from .cover import falling, shared
 from .oscillator import NotProved, Oscillator
 from .pieces import UNIT, Setting, factor, flown, piece
 from .rational import period, read
@@ -43,10 +43,10 @@ def check(certificate, sample=20, seed=0):
         for record in (certificate[part][name] if part == "below" else [certificate[part][name]])
     ]
     wide = Setting(osc, (low + high) / 2, (high - low) / 2)
-    for side, ends in zip((wide, wide.reversed()), certificate["between"]["ends"], strict=True):
-        covers(side, ends)
-        tasks += [(side, [*pair]) for pair in zip(ends, [*ends[1:], UNIT], strict=True)]
-    chosen = Random(seed).sample(tasks[:-2], sample) if sample < len(tasks) else tasks
+    for side, pieces in zip((wide, wide.reversed()), certificate["between"]["pieces"], strict=True):
+        covers(side, pieces)
+        tasks += [(side, record) for record in pieces]
+    chosen = Random(seed).sample(tasks, sample) if sample < len(tasks) else tasks
     for side, record in chosen:
         flown_within(side, record)
     return low, high, least
@@ -58,24 +58,25 @@ def oscillator(certificate):
     return Oscillator(int(values.pop("p")), **{name: Fraction(value) for name, value in values.items()})
 
 
-def covers(setting, ends):
-    """Assert that pieces with these lower ends, up to r, cover a fundamental domain."""
-    if not all(a < b for a, b in zip(ends, [*ends[1:], UNIT], strict=True)):
-        raise NotProved("the pieces' ends do not rise to r")
+def covers(setting, records):
+    """Assert that the pieces cover [r / g, r] at the phases 0 and pi, g the stretching proved anew."""
     stretch = read(factor(setting)).high
-    if ends[0] * stretch**2 > UNIT:
-        raise NotProved(f"the pieces do not cover a fundamental domain: down to {float(Fraction(ends[0], UNIT)):.2e} r only")
+    for turn in (0, 1):
+        ends = sorted(tuple(record[1:3]) for record in records if record[0] == turn)
+        if not ends or ends[0][0] * stretch > UNIT or ends[-1][1] != UNIT:
+            raise NotProved(f"the pieces from phase {turn} pi do not reach from r / g to r")
+        for (low, high), (after, _) in zip(ends, [*ends[1:], (UNIT, UNIT)], strict=True):
+            if not low < high or high < after:
+                raise NotProved(f"the pieces from phase {turn} pi leave a hole after {high}")
 
 
 def check_below(setting, found):
     """Assert that the pieces of both manifolds cover and are apart at all phases: the least gap."""
     sides = []
     for side, name in ((setting, "unstable"), (setting.reversed(), "stable")):
-        pieces = [piece(record) for record in found[name]]
-        covers(side, [one.low for one in pieces])
-        for one, after in zip(pieces, [*pieces[1:], None], strict=True):
-            if one.high != (after.low if after else UNIT):
-                raise NotProved(f"pieces leave a hole after {one.high}")
+        covers(side, found[name])
+        pieces = [piece(record) for record in falling(found[name])]
+        for one in pieces:
             if not one.rate.high < 0:
                 raise NotProved(f"a piece is no graph over the phase: dt/dxi up to {float(one.rate.high):.1e}")
         sides.append(pieces)
@@ -88,7 +89,7 @@ def check_below(setting, found):
 
 def flown_within(setting, record):
     """Fly a piece anew and assert that it comes out within its record (ends alone: that it is a graph)."""
-    for new, old in zip(flown(setting, *record[:2])[2:], record[2:], strict=False):
+    for new, old in zip(flown(setting, *record[:3])[3:], record[3:], strict=False):
         a, b = read(new), read(old)
         if not b.low <= a.low <= a.high <= b.high:
-            raise NotProved(f"the piece {record[0]}: flown anew it is at {new}, not within {old}")
+            raise NotProved(f"the piece {record[:3]}: flown anew it is at {new}, not within {old}")

@@ -2,13 +2,12 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import log, pi
 
 from flint import arb, ctx
 
-from .manifold import fly, local_curve
+from .manifold import fly
 from .oscillator import NotProved, ball
-from .pieces import BITS, UNIT, Setting, curve
+from .pieces import BITS, Setting, curve
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ def contact(osc, guess, depth=17):
     """(mu, time) of the tangency, nearly, from a forcing amplitude near it: Newton in mu at the highest phase."""
     mu, t, near = Fraction(guess), (arb.pi() / 2 / ball(osc.omega)).mid(), None
     for _ in range(8):
-        t, near, bend = highest(Setting(osc, mu, Fraction(0), depth), t, near)
+        t, near, bend = highest(Setting(osc, mu, depth=depth), t, near)
         change = float(near.apart / near.by_mu)
         mu -= Fraction(change).limit_denominator(10**18)
         if abs(change) < 1e-9 * mu:

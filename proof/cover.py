@@ -17,19 +17,22 @@ def attempt(task):
         return str(failure)
 
 
+def falling(records):
+    """Records in the order of falling crossing times."""
+    return sorted(records, key=lambda record: -read(record[5]).high)
+
+
 def shared(unstable, stables, turn, spread):
     """(j, gap) of the stable pieces that share a phase with an unstable one, at any number of turns.
 
-    stables : Pieces in the order of xi, so that their times fall.
+    stables : Pieces in the order of falling times.
     """
     longest = max(s.time.high - s.time.low for s in stables)
     starts = [-s.time.high for s in stables]  # rising
-    last = stables[0].time.high
-    turns = range(int((unstable.time.low + stables[-1].time.low) / turn.high), int((unstable.time.high + last) / turn.low) + 2)
-    for k in turns:
+    first, last = (int((unstable.time.low + s.time.low) / turn.high) for s in (stables[-1], stables[0]))
+    for k in range(first, last + 3):
         shift = turn * point(k)
-        first = bisect_left(starts, unstable.time.low - shift.high - longest)
-        for j in range(first, len(stables)):
+        for j in range(bisect_left(starts, unstable.time.low - shift.high - longest), len(stables)):
             if starts[j] > unstable.time.high - shift.low:
                 break
             apart = gap(unstable, stables[j], shift, spread)
@@ -38,31 +41,30 @@ def shared(unstable, stables, turn, spread):
 
 
 def domain(setting, width, each=map, tick=lambda: None):
-    """Records of pieces that cover a fundamental domain of one manifold, halved until each is a graph over the phase."""
-    ends = first_pieces(read(factor(setting)).high, width)
-    return flown_or_halved(setting, list(zip(ends, ends[1:], strict=False)), each, tick)
+    """Records of pieces that cover a fundamental domain of a manifold, halved until each is a graph over the phase."""
+    return flown_or_halved(setting, first_pieces(read(factor(setting)).high, width), each, tick)
 
 
 def flown_or_halved(setting, todo, each, tick):
-    """Records of the pieces (low, high), or of their halves where the whole could not be flown."""
+    """Records of the pieces (turn, low, high), or of their halves where the whole could not be flown."""
     records = []
     while todo:
         halves = []
-        for (low, high), result in zip(todo, each(attempt, [(setting, *ends) for ends in todo]), strict=True):
+        for ends, result in zip(todo, each(attempt, [(setting, *ends) for ends in todo]), strict=True):
             tick()
             if isinstance(result, str):
-                halves += _halves(low, high, result)
+                halves += _halves(*ends, result)
             else:
                 records.append(result)
         todo = halves
-    return sorted(records)
+    return falling(records)
 
 
-def _halves(low, high, why):
+def _halves(turn, low, high, why):
     middle = (low + high) // 2
     if high - low < 2 * FINEST:
         raise NotProved(f"a piece of relative width {(high - low) / low:.1e}: {why}")
-    return [(low, middle), (middle, high)]
+    return [(turn, low, middle), (turn, middle, high)]
 
 
 def cover(setting, width=20, each=map, tick=lambda: None):
@@ -84,5 +86,6 @@ def cover(setting, width=20, each=map, tick=lambda: None):
             return records, min(apart)
         for side, which, rows in zip(sides, close, records, strict=True):
             why = f"{len(which)} pairs of pieces are not apart: gap {float(min(apart)):.1e}"
-            todo = [half for i in which for half in _halves(*rows[i][:2], why)]
-            rows[:] = sorted([row for i, row in enumerate(rows) if i not in which] + flown_or_halved(side, todo, each, tick))
+            todo = [half for i in which for half in _halves(*rows[i][:3], why)]
+            kept = [row for i, row in enumerate(rows) if i not in which]
+            rows[:] = falling(kept + flown_or_halved(side, todo, each, tick))

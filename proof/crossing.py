@@ -13,7 +13,7 @@ LONGEST = Fraction(40)  # half periods that a flight may take
 
 @dataclass(frozen=True)
 class Crossing:
-    """Where a set crosses v = 0: time, x, the force F there, and the derivative of (x, v) by r0 at the crossing time."""
+    """Where a set crosses v = 0: time, x, the force F, and the derivative of (x, v) by r0 at the crossing time."""
 
     t: arb
     x: arb
@@ -59,7 +59,7 @@ def to_crossing(osc, now, orders):
             if not force(osc, held.x, held.v, now.box()[2], _phases(osc, now, after)) < 0:
                 raise NotProved(f"F < 0 before the crossing, at x = {held.x.str(5)}, v = {held.v.str(5)}")
             late = _newton(osc, now)
-            if late <= (after.turn - now.turn).numerator * arb.pi() / (after.turn - now.turn).denominator / ball(osc.omega):
+            if late <= ball(after.turn - now.turn) * arb.pi() / ball(osc.omega):
                 landed, _ = step(osc, now, late, orders, (now.turn, late))
                 return _land(osc, landed, 0), _land(osc, landed, 1)
         now = after
@@ -73,7 +73,8 @@ def _phases(osc, now, after):
 def _newton(osc, now):
     """The time until the middle solution crosses, nearly: a point, not proved and not in need of it."""
     x, v, mu = (now.m[i, 0] for i in range(3))
-    series = arb_poly([c.mid() for c in taylor(osc, x, v, mu, drive(osc, now.phase(osc).mid(), 20), 20)[0]]).derivative()
+    coefficients, _ = taylor(osc, x, v, mu, drive(osc, now.phase(osc).mid(), 20), 20)
+    series = arb_poly([c.mid() for c in coefficients]).derivative()
     slope, late = series.derivative(), arb(0)
     for _ in range(8):
         late = (late - series(late) / slope(late)).mid()

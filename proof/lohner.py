@@ -18,7 +18,7 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, arb_poly
 
-from .oscillator import NotProved, around, ball, drive, force, stiffness, taylor
+from .oscillator import ZERO, NotProved, around, ball, drive, force, stiffness, taylor
 
 IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 BOTH = arb_mat([[1, 1]])
@@ -42,8 +42,8 @@ class SolutionSet:
     Q: arb_mat
     r: arb_mat
     S: arb_mat
-    turn: Fraction = Fraction(0)
-    late: arb = arb(0)
+    turn: Fraction
+    late: arb = ZERO
 
     def box(self, part=0):
         """(x, v, mu) in balls, of the whole (part 0) or of the middle (1)."""
@@ -59,11 +59,12 @@ class SolutionSet:
         return ball(self.turn) * arb.pi() + ball(osc.omega) * self.late
 
 
-def solution_set(point, whole, middle, C, error, derivative_error):
+def solution_set(point, whole, middle, C, error, derivative_error, turn=0):
     """{point + C r0 + error}, r0 in `whole`, its part with r0 in `middle`; derivative by r0 in C + derivative_error."""
     r0 = arb_mat([list(pair) for pair in zip(whole, middle, strict=True)])
     r = arb_mat([[value, value] for value in error])
-    return SolutionSet(arb_mat([[value] for value in point]), C, r0, arb_mat(IDENTITY), r, derivative_error)
+    m, Q = arb_mat([[value] for value in point]), arb_mat(IDENTITY)
+    return SolutionSet(m, C, r0, Q, r, derivative_error, Fraction(turn))
 
 
 def enclose(osc, box, phase, span):

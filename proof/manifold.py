@@ -7,7 +7,7 @@ from flint import arb, arb_mat
 from .crossing import to_crossing, to_phase
 from .lohner import solution_set
 from .oscillator import NotProved, around
-from .saddle import ORDERS, ZERO, Saddle, columns, saddle
+from .saddle import ORDERS, Saddle, columns, saddle
 
 
 @dataclass(frozen=True)
@@ -29,11 +29,10 @@ def local_curve(osc, mu, spread, r):
     """The Curve of an oscillator within r; mu, r : exact balls. Raises NotProved.
 
     With M the derivative of the half map over the box, [[a, b], [c, d]] in the frame: the cone |eta| <= L |xi| is
-    mapped into itself and stretched, and the box covers itself (in by eta, out by xi). The graph transform does the rest.
+    mapped into itself and stretched, and the box covers itself (in by eta, out by xi): then the graph transform works.
     """
     base = saddle(osc, mu, spread)
-    C = _launch_matrix(base)
-    start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), C)
+    start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), 0)
     end = to_phase(osc, start, 1, ORDERS)
     M = base.frame.inv() * -columns(end.derivative(), 0, 2)
     a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))
@@ -52,20 +51,20 @@ def local_curve(osc, mu, spread, r):
     return Curve(osc, base, r, L, (a + b * L).upper())
 
 
-def _launch_matrix(base):
-    E, slope = base.frame, base.slope.mid()
-    return arb_mat([[E[0, 0], E[0, 1], slope[0, 0]], [E[1, 0], E[1, 1], slope[1, 0]], [0, 0, 1]])
+def _start(base, xi, whole, middle, turn):
+    """The set z* + E (xi + r0[0], r0[1]) for mu + r0[2], r0 in `whole`, with its part in `middle`, at phase turn * pi.
 
-
-def _start(base, xi, whole, middle, C):
-    """The set z*(mu') + E (xi + r0[0], r0[1]) for mu' = mu + r0[2], r0 in `whole`, and its part with r0 in `middle`."""
-    centre = base.z.mid() + base.frame * arb_mat([[xi], [0]])
-    m = centre.mid()
-    drift = base.slope - base.slope.mid()
-    error = base.z - base.z.mid() + (centre - m) + drift * whole[2]
+    At phase pi the saddle orbit is at -z*, and what the half map does about it is the same.
+    """
+    sign, E = (1 - 2 * turn), base.frame
+    z, slope = sign * base.z, sign * base.slope
+    centre = z.mid() + E * arb_mat([[xi], [0]])
+    m, drift = centre.mid(), slope - slope.mid()
+    C = arb_mat([[E[0, 0], E[0, 1], slope[0, 0].mid()], [E[1, 0], E[1, 1], slope[1, 0].mid()], [0, 0, 1]])
+    error = z - z.mid() + (centre - m) + drift * whole[2]
     derivative_error = arb_mat([[0, 0, drift[0, 0]], [0, 0, drift[1, 0]], [0, 0, 0]])
-    start = solution_set((m[0, 0], m[1, 0], base.mu), whole, middle, C, (error[0, 0], error[1, 0], 0), derivative_error)
-    return start
+    point = (m[0, 0], m[1, 0], base.mu)
+    return solution_set(point, whole, middle, C, (error[0, 0], error[1, 0], 0), derivative_error, turn)
 
 
 @dataclass(frozen=True)
@@ -85,12 +84,12 @@ class Flight:
     F: arb
 
 
-def fly(curve, low, high, orders=(16, 10)):
-    """The Flight of the piece low <= xi <= high (exact balls), for each mu of the interval. Raises NotProved."""
-    base, C = curve.saddle, _launch_matrix(curve.saddle)
+def fly(curve, low, high, turn=0, orders=(16, 10)):
+    """The Flight of the piece low <= xi <= high (exact balls) from phase turn * pi, for each mu. Raises NotProved."""
+    base = curve.saddle
     xi = ((low + high) / 2).mid()
     half, slack = around(max(high - xi, xi - low).upper()), (curve.L * high).upper()
-    start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), 0), C)
+    start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), 0), turn)
     whole, middle = to_crossing(curve.osc, start, orders)
     V, tilt = whole.derivative, around(curve.L)
     u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))

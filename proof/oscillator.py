@@ -13,8 +13,8 @@ from operator import mul
 
 from flint import arb, ctx, fmpq
 
-
 ZERO, ONE = arb(0), arb(1)
+SIGNS = (("alpha", 1, "> 0"), ("omega", 1, "> 0"), ("delta", -1, "< 0"), ("gamma", 1, "> 0"))
 
 
 class NotProved(ArithmeticError):
@@ -38,7 +38,7 @@ class Oscillator:
     def __post_init__(self):
         if self.p not in (1, 3):
             raise ValueError(f"p = {self.p!r}: covered are p = 1 and p = 3, where the field is a polynomial")
-        for name, sign, allowed in (("alpha", 1, "> 0"), ("omega", 1, "> 0"), ("delta", -1, "< 0"), ("gamma", 1, "> 0")):
+        for name, sign, allowed in SIGNS:
             value = exact(name, getattr(self, name))
             if not sign * value > 0:
                 raise ValueError(f"{name} = {value}: covered are rational {name} {allowed}")

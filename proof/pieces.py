@@ -1,7 +1,8 @@
 """A fundamental domain of the manifold in pieces, as numbers that can be written down: exact rationals.
 
-A piece's ends are whole numbers n, xi = n r / 2^40. Each piece is flown to v = 0 by itself, so that they can be
-flown on several cores, and any of them anew.
+The half map stretches xi by at most g, so each solution of the manifold has r / g <= xi <= r at some phase k pi: the
+pieces of [r / g, r] at the phases 0 and pi are all of it. A piece's ends are whole numbers n, xi = n r / 2^40. Each is
+flown to v = 0 by itself, so that they can be flown on several cores, and any of them anew.
 """
 
 from dataclasses import dataclass, replace
@@ -15,6 +16,7 @@ from .rational import Fraction, Interval, point, read, written
 
 UNIT = 2**40
 BITS = 96
+NONE = Fraction(0)
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class Setting:
 
     osc: Oscillator
     mu: Fraction
-    spread: Fraction = Fraction(0)
+    spread: Fraction = NONE
     depth: int = 13
     orders: tuple = (16, 10)
 
@@ -37,11 +39,12 @@ class Setting:
 
 @dataclass(frozen=True)
 class Piece:
-    """The ends in units of r / 2^40, and where it crosses v = 0: Intervals of manifold.Flight's numbers.
+    """Phase 0 or pi (turn 0 or 1), ends in units of r / 2^40, and manifold.Flight's numbers as Intervals.
 
     t, x : the middle's, at mu; time : the whole; slope : dx/dt; by_mu : dx/dmu at fixed t; rate : dt/dxi.
     """
 
+    turn: int
     low: int
     high: int
     t: Interval
@@ -66,26 +69,26 @@ def factor(setting):
     return written(curve(setting).factor)
 
 
-def flown(setting, low, high):
-    """The record of a piece: its ends and six [middle, radius] pairs, rounded outward. Raises NotProved."""
+def flown(setting, turn, low, high):
+    """The record of a piece: its turn, its ends and six [middle, radius] pairs, rounded outward. Raises NotProved."""
     with ctx.workprec(BITS):
         here = curve(setting)
-        flight = fly(here, here.r * low / UNIT, here.r * high / UNIT, setting.orders)
+        flight = fly(here, here.r * low / UNIT, here.r * high / UNIT, turn, setting.orders)
         balls = (flight.t, flight.x, flight.time, flight.slope, flight.by_mu, flight.rate)
-        return [low, high, *map(written, balls)]
+        return [turn, low, high, *map(written, balls)]
 
 
 def piece(record):
     """The Piece of a record."""
-    return Piece(*record[:2], *map(read, record[2:]))
+    return Piece(*record[:3], *map(read, record[3:]))
 
 
 def first_pieces(stretch, width):
-    """Ends of pieces that cover a fundamental domain: xi from r down to below r / stretch^2, by 1/width each."""
-    ends, last = [UNIT], UNIT / Fraction(stretch) ** 2
-    while ends[-1] > last:
+    """(turn, low, high) of pieces that cover [r / stretch, r] at both phases, each shorter by 1/width than its end."""
+    ends = [UNIT]
+    while ends[-1] * stretch > UNIT:
         ends.append(ends[-1] * (width - 1) // width)
-    return ends[::-1]
+    return [(turn, low, high) for turn in (0, 1) for low, high in zip(ends[1:], ends, strict=False)]
 
 
 def inner(setting, piece):
@@ -101,7 +104,7 @@ def difference(unstable, stable, turn, time):
     return middle + stable.slope * ((turn - stable.t) - time) + unstable.slope * (unstable.t - time)
 
 
-def gap(unstable, stable, turn, spread=Fraction(0)):
+def gap(unstable, stable, turn, spread=NONE):
     """A lower bound of x_s - x_u at all phases that two pieces share, and for all mu of the interval.
 
     stable : a Piece of the reversed oscillator, that is time and slope with the other sign; turn : the whole number

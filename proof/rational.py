@@ -50,7 +50,7 @@ def fraction(exact_ball):
 
 
 def written(ball):
-    """A ball as two decimal strings, [middle, radius], that hold it: rounded outward, some digits of the radius kept."""
+    """A ball as two decimal strings, [middle, radius], that hold it: rounded outward."""
     low, high = fraction(ball.lower()), fraction(ball.upper())
     middle, radius = (low + high) / 2, (high - low) / 2
     digits = max(4, 2 - floor(log10(radius))) if radius else 30

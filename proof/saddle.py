@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from flint import arb, arb_mat
 
 from .crossing import to_phase
-from .lohner import IDENTITY, solution_set
+from .lohner import solution_set
 from .oscillator import NotProved, around
 
 ORDERS = (20, 16)
 ZERO = arb_mat(3, 3)
+NOTHING = arb(0)
 ONE = arb_mat([[1, 0], [0, 1]])
 
 
@@ -48,24 +49,57 @@ def columns(matrix, first, last):
     return arb_mat([row[first:last] for row in matrix.tolist()[:2]])
 
 
-def saddle(osc, mu, spread=arb(0)):
-    """The Saddle of an oscillator. mu : exact ball; spread : ball around 0. Raises NotProved."""
+def saddle(osc, mu, spread=NOTHING, parts=8):
+    """The Saddle of an oscillator. mu : exact ball; spread : ball around 0. Raises NotProved.
+
+    dz/dmu is enclosed on `parts` parts of a wide interval by itself, which is sharper.
+    """
+    z, inverse, drift = _newton(osc, mu)
+    radius = arb("0.001").upper()
+    held = _fixed(osc, z, mu, arb(0), drift, inverse, radius)
+    _, slope, by_mu = half_map(osc, z, mu, (held[0, 0], held[1, 0], 0), drift)
+    slope = drift + (ONE - slope).inv() * (by_mu - drift)
+    if spread.rad() > 0:
+        slope = _slope(osc, mu, spread, radius, parts)
+    frame, values = _eigenframe(half_map(osc, z, mu, (0, 0, 0), drift)[1].mid())
+    return Saddle(mu, spread, z + held, slope, radius, frame, values)
+
+
+def _slope(osc, mu, spread, radius, parts):
+    """dz/dmu for every forcing amplitude of mu + spread, proved part by part."""
+    slopes = []
+    for k in range(parts):
+        part = arb((mu + spread.rad() * (2 * k + 1 - parts) / parts).mid(), 0)
+        share = around((spread.rad() / parts * 1.01).upper())
+        z, inverse, drift = _newton(osc, part)
+        held = _fixed(osc, z, part, share, drift, inverse, radius)
+        _, slope, by_mu = half_map(osc, z, part, (held[0, 0], held[1, 0], share), drift)
+        slopes.append(drift + (ONE - slope).inv() * (by_mu - drift))
+    together = slopes[0]
+    for slope in slopes[1:]:
+        together = arb_mat([[together[i, 0].union(slope[i, 0])] for i in (0, 1)])
+    return together
+
+
+def _newton(osc, mu):
+    """(z, (1 - DQ)^-1, dz/dmu) at the fixed point, nearly: points."""
     nothing, z = arb_mat(2, 1), arb_mat(2, 1)
-    for _ in range(12):
+    for _ in range(8):
         image, slope, by_mu = half_map(osc, z, mu, (0, 0, 0), nothing)
         inverse = (ONE - slope).inv().mid()
         z = (z - inverse * (z - image)).mid()
-    drift, radius = (inverse * by_mu).mid(), arb("0.001").upper()
+    return z, inverse, (inverse * by_mu).mid()
+
+
+def _fixed(osc, z, mu, spread, drift, inverse, radius):
+    """The box about z + drift (mu' - mu) that holds the one fixed point within the radius, for each mu'."""
     box = arb_mat([[around(radius)]] * 2)
-    wide = held = _krawczyk(osc, z, mu, spread, drift, inverse, box)
-    if not all(box[i, 0].contains_interior(wide[i, 0]) for i in (0, 1)):
-        raise NotProved(f"Krawczyk: the box of radius {radius.str(3)} has an image of {wide[0, 0].str(3)}")
+    held = _krawczyk(osc, z, mu, spread, drift, inverse, box)
+    if not all(box[i, 0].contains_interior(held[i, 0]) for i in (0, 1)):
+        raise NotProved(f"Krawczyk: the box of radius {radius.str(3)} has an image of {held[0, 0].str(3)}")
     for _ in range(4):  # what is fixed in a box lies in the box's image
-        wide = _krawczyk(osc, z, mu, spread, drift, inverse, wide)
-        held = _krawczyk(osc, z, mu, arb(0), drift, inverse, held)
-    _, slope, by_mu = half_map(osc, z, mu, (wide[0, 0], wide[1, 0], spread), drift)
-    drift = drift + (ONE - slope).inv() * (by_mu - drift)
-    return Saddle(mu, spread, z + held, drift, radius, *_eigenframe(half_map(osc, z, mu, (0, 0, 0), nothing)[1].mid()))
+        held = _krawczyk(osc, z, mu, spread, drift, inverse, held)
+    return held
 
 
 def _krawczyk(osc, z, mu, spread, drift, inverse, box):

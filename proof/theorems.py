@@ -64,7 +64,7 @@ def above(setting, time, bend):
             width = half / (here.r * flown_rate(side, xi))
             middle = xi / here.r
             ends = (fraction(((middle + sign * width) * UNIT).floor().mid()) for sign in (-1, 1))
-            records.append(flown(side, *map(int, ends)))
+            records.append(flown(side, 0, *map(int, ends)))
         u, s = map(piece, records)
         turns = round((u.t.middle + s.t.middle) / period(setting.osc.omega).middle)
         turn = period(setting.osc.omega) * point(turns)
@@ -80,7 +80,7 @@ def flown_rate(setting, xi):
     """|dt/dxi| at a point of the manifold, nearly."""
     here = curve(setting)
     n = int(fraction((xi / here.r * UNIT).floor().mid()))
-    return ball(-piece(flown(setting, n, n)).rate.middle)
+    return ball(-piece(flown(setting, 0, n, n)).rate.middle)
 
 
 def transverse(setting, found):
@@ -97,10 +97,11 @@ def transverse(setting, found):
         raise NotProved(f"no change of sign between {float(first.middle):.2e} and {float(last.middle):.2e}")
     slope = point(0) - s.slope - u.slope
     if slope.low <= 0 <= slope.high:
-        raise NotProved(f"the manifolds may be parallel: slopes differ by {float(slope.middle):.1e} +- {float(slope.radius):.1e}")
+        width = f"{float(slope.middle):.1e} +- {float(slope.radius):.1e}"
+        raise NotProved(f"the manifolds may be parallel: their slopes differ by {width}")
 
 
 def between(setting, each=map, tick=lambda: None):
-    """For every forcing amplitude of the interval both manifolds are graphs over the phase: ends of the pieces."""
+    """For every forcing amplitude of the interval both manifolds are graphs over the phase: the pieces."""
     sides = [domain(side, 20, each, tick) for side in (setting, setting.reversed())]
-    return {"depth": setting.depth, "ends": [[record[0] for record in side] for side in sides]}
+    return {"depth": setting.depth, "pieces": [[record[:3] for record in side] for side in sides]}
