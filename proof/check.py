@@ -20,9 +20,9 @@ from .theorems import FINE, transverse
 CERTIFICATES = Path(__file__).parent / "certificates"
 
 
-def load(p):
-    """The certificate of the exponent p, as prove() made it."""
-    return json.loads((CERTIFICATES / f"p{p}.json").read_text())
+def load(name):
+    """A certificate by its name: p1, p3, first1."""
+    return json.loads((CERTIFICATES / f"{name}.json").read_text())
 
 
 def check(certificate, sample=20, seed=0):

@@ -49,26 +49,34 @@ def flown_or_halved(setting, todo, each, tick):
     """Records of the pieces (turn, low, high), or of their halves where the whole could not be flown."""
     records = []
     while todo:
-        halves = []
+        halved = []
         for ends, result in zip(todo, each(attempt, [(setting, *ends) for ends in todo]), strict=True):
             tick()
             if isinstance(result, str):
-                halves += _halves(*ends, result)
+                halved += _fine(ends, result)
             else:
                 records.append(result)
-        todo = halves
+        todo = halved
     return falling(records)
 
 
-def _halves(turn, low, high, why):
+def halves(turn, low, high):
+    """A piece in two."""
     middle = (low + high) // 2
-    if high - low < 2 * FINEST:
-        raise NotProved(f"a piece of relative width {(high - low) / low:.1e}: {why}")
     return [(turn, low, middle), (turn, middle, high)]
 
 
-def cover(setting, width=20, each=map, tick=lambda: None):
-    """Records (unstable, stable) whose pairs are all apart, and the least gap. Raises NotProved."""
+def _fine(ends, why):
+    if ends[2] - ends[1] < 2 * FINEST:
+        raise NotProved(f"a piece of relative width {(ends[2] - ends[1]) / ends[1]:.1e}: {why}")
+    return halves(*ends)
+
+
+def cover(setting, width=20, each=map, tick=lambda: None, most=5000):
+    """Records (unstable, stable) whose pairs are all apart, and the least gap. Raises NotProved.
+
+    width : the first pieces' ends differ by a part in it; most : pieces at the end.
+    """
     sides = [setting, setting.reversed()]
     records = [domain(side, width, each, tick) for side in sides]
     turn = period(setting.osc.omega)
@@ -86,6 +94,8 @@ def cover(setting, width=20, each=map, tick=lambda: None):
             return records, min(apart)
         for side, which, rows in zip(sides, close, records, strict=True):
             why = f"{len(which)} pairs of pieces are not apart: gap {float(min(apart)):.1e}"
-            todo = [half for i in which for half in _halves(*rows[i][:3], why)]
+            if sum(map(len, records)) > most:
+                raise NotProved(f"{most} pieces are not enough: {why}")
+            todo = [half for i in which for half in _fine(tuple(rows[i][:3]), why)]
             kept = [row for i, row in enumerate(rows) if i not in which]
             rows[:] = falling(kept + flown_or_halved(side, todo, each, tick))
