@@ -45,6 +45,7 @@ def local_curve(osc, mu, spread, r):
         ("vectors of the cone are stretched", least - b * L > 1),
         ("the box is left through xi", (least - b) * r > r),
         ("the box is entered through eta", c + d < 1),
+        ("graphs of the cone draw together", d + b * L < 1),
     ):
         if not holds:
             raise NotProved(f"{step}: |a| >= {least.str(4)}, b = {b.str(4)}, c = {c.str(4)}, d = {d.str(4)}")
