@@ -36,12 +36,10 @@ def check(certificate, sample=20, seed=0):
         raise NotProved(f"low = {float(low)}, high = {float(high)}: they must be in this order")
     least = check_below(Setting(osc, low), certificate["below"])
     transverse(Setting(osc, high, **FINE), certificate["above"])
-    tasks = [
-        (side, record)
-        for setting, part in ((Setting(osc, low), "below"), (Setting(osc, high, **FINE), "above"))
-        for side, name in ((setting, "unstable"), (setting.reversed(), "stable"))
-        for record in (certificate[part][name] if part == "below" else [certificate[part][name]])
-    ]
+    above, below = certificate["above"], certificate["below"]
+    for side, name in sides(Setting(osc, high, **FINE)):
+        flown_within(side, above[name])
+    tasks = [(side, record) for side, name in sides(Setting(osc, low)) for record in below[name]]
     wide = Setting(osc, (low + high) / 2, (high - low) / 2)
     for side, pieces in zip((wide, wide.reversed()), certificate["between"]["pieces"], strict=True):
         covers(side, pieces)
@@ -50,6 +48,11 @@ def check(certificate, sample=20, seed=0):
     for side, record in chosen:
         flown_within(side, record)
     return low, high, least
+
+
+def sides(setting):
+    """Both manifolds of a setting with their names."""
+    return (setting, "unstable"), (setting.reversed(), "stable")
 
 
 def oscillator(certificate):
@@ -72,15 +75,15 @@ def covers(setting, records):
 
 def check_below(setting, found):
     """Assert that the pieces of both manifolds cover and are apart at all phases: the least gap."""
-    sides = []
-    for side, name in ((setting, "unstable"), (setting.reversed(), "stable")):
+    both = []
+    for side, name in sides(setting):
         covers(side, found[name])
         pieces = [piece(record) for record in falling(found[name])]
         for one in pieces:
             if not one.rate.high < 0:
                 raise NotProved(f"a piece is no graph over the phase: dt/dxi up to {float(one.rate.high):.1e}")
-        sides.append(pieces)
-    unstable, stable = sides
+        both.append(pieces)
+    unstable, stable = both
     apart = [least for one in unstable for _, least in shared(one, stable, period(setting.osc.omega), setting.spread)]
     if not min(apart) > 0:
         raise NotProved(f"the manifolds may meet: gap {float(min(apart)):.1e}")

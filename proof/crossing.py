@@ -61,7 +61,10 @@ def to_crossing(osc, now, orders):
             late = _newton(osc, now)
             if late <= ball(after.turn - now.turn) * arb.pi() / ball(osc.omega):
                 landed, _ = step(osc, now, late, orders, (now.turn, late))
-                return _land(osc, landed, 0), _land(osc, landed, 1)
+                crossings = _land(osc, landed, 0), _land(osc, landed, 1)
+                if not crossings[0].x > well:
+                    raise NotProved(f"the crossing is beyond the well: x = {crossings[0].x.str(5)}")
+                return crossings
         now = after
     raise NotProved("no crossing of v = 0 in forty half periods")
 

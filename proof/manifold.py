@@ -15,18 +15,19 @@ class Curve:
     """The unstable manifold near the saddle orbit at phase 0, for each mu of the saddle's interval.
 
     The points z*(mu) + E (xi, h(xi)), |xi| <= r, with |h| <= L |xi| and |h'| <= L, E the saddle's frame; one turn of
-    the half map takes xi to at most `factor` |xi|.
+    the half map takes xi to at most `factor` |xi|. rest : the interval's middle less the exact number that mu is.
     """
 
     osc: object
     saddle: Saddle
+    rest: arb
     r: arb
     L: arb
     factor: arb
 
 
-def local_curve(osc, mu, spread, r):
-    """The Curve of an oscillator within r; mu, r : exact balls. Raises NotProved.
+def local_curve(osc, mu, spread, rest, r):
+    """The Curve of an oscillator within r; mu, r : exact balls; rest : where in mu + spread its middle is. NotProved.
 
     With M the derivative of the half map over the box, [[a, b], [c, d]] in the frame: the cone |eta| <= L |xi| is
     mapped into itself and stretched, and the box covers itself (in by eta, out by xi): then the graph transform works.
@@ -49,7 +50,7 @@ def local_curve(osc, mu, spread, r):
     ):
         if not holds:
             raise NotProved(f"{step}: |a| >= {least.str(4)}, b = {b.str(4)}, c = {c.str(4)}, d = {d.str(4)}")
-    return Curve(osc, base, r, L, (a + b * L).upper())
+    return Curve(osc, base, rest, r, L, (a + b * L).upper())
 
 
 def _start(base, xi, whole, middle, turn):
@@ -90,14 +91,14 @@ def fly(curve, low, high, turn=0, orders=(16, 10)):
     base = curve.saddle
     xi = ((low + high) / 2).mid()
     half, slack = around(max(high - xi, xi - low).upper()), (curve.L * high).upper()
-    start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), 0), turn)
+    start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), curve.rest), turn)
     whole, middle = to_crossing(curve.osc, start, orders)
     V, tilt = whole.derivative, around(curve.L)
     u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
     rate = -u_v / whole.F
     if not whole.F < 0:
         raise NotProved(f"F < 0 where v = 0: F = {whole.F.str(5)}")
-    if rate.contains(0):
+    if not rate < 0:
         raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")
     slope = -u_x * whole.F / u_v
     return Flight(middle.t, middle.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate, whole.F)

@@ -57,11 +57,12 @@ class Piece:
 
 @lru_cache(maxsize=4)
 def curve(setting):
-    """The local curve of a setting. The middle of the mu is rounded to a ball's exact middle, the spread made up."""
+    """The local curve of a setting: about the exact middle of the ball of mu, what is left of mu in `rest`."""
     with ctx.workprec(BITS):
         mu = ball(setting.mu)
-        spread = arb(0, (ball(setting.spread) + (mu - mu.mid())).abs_upper()) if setting.spread else mu - mu.mid()
-        return local_curve(setting.osc, mu.mid(), spread, arb(2) ** -setting.depth)
+        rest = mu - mu.mid()
+        spread = arb(0, (ball(setting.spread) + rest).abs_upper())
+        return local_curve(setting.osc, mu.mid(), spread, rest, arb(2) ** -setting.depth)
 
 
 def factor(setting):

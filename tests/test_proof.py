@@ -19,7 +19,7 @@ from proof.first import check_first, intervals
 from proof.lohner import solution_set
 from proof.manifold import fly, local_curve
 from proof.oscillator import NotProved, Oscillator, around, force, stiffness
-from proof.pieces import BITS, Setting, curve, difference, flown, gap, piece
+from proof.pieces import BITS, Setting, curve, flown, gap, piece
 from proof.rational import Fraction as Rational
 from proof.rational import Interval, decimal, period, point, read, written
 from proof.saddle import ZERO, saddle
@@ -151,14 +151,14 @@ def test_at_the_higher_forcing_the_pieces_of_the_intersection_are_not_apart():
 
 
 def test_a_piece_that_is_too_wide_is_named():
-    curve = local_curve(OSC, arb("0.075").mid(), arb(0), arb(2) ** -13)
+    curve = local_curve(OSC, arb("0.075").mid(), arb(0), arb(0), arb(2) ** -13)
     with pytest.raises(NotProved, match=r"F < 0|graph over the phase|first-order enclosure|crossing"):
         fly(curve, arb(2) ** -15, arb(2) ** -14)
 
 
 def test_a_local_box_that_is_too_large_is_named():
     with pytest.raises(NotProved, match=r"\|a\| >="):
-        local_curve(OSC, arb("0.075").mid(), arb(0), arb(2) ** -6)
+        local_curve(OSC, arb("0.075").mid(), arb(0), arb(0), arb(2) ** -6)
 
 
 def test_pieces_that_do_not_reach_far_enough_are_named():
@@ -220,16 +220,29 @@ def assert_enclosures_of_the_same(ball, interval, width):
 
 def test_the_gap_of_a_pair_agrees_with_another_interval_arithmetic():
     iv.prec = 120
-    certificate = load("p1")["above"]
-    u, s = (piece(certificate[side]) for side in ("unstable", "stable"))
-    time = Fraction(certificate["times"][0])
-    turn = 2 * iv.pi * certificate["turns"]
-    U, S = ({name: interval(getattr(one, name)) for name in ("t", "x", "slope")} for one in (u, s))
-    T = iv.mpf(time.numerator) / time.denominator
-    other = S["x"] - U["x"] + S["slope"] * (turn - S["t"] - T) + U["slope"] * (U["t"] - T)
-    ours = difference(u, s, period(1) * point(certificate["turns"]), point(time))
-    assert float(ours.low) == pytest.approx(float(other.a), rel=1e-9)
-    assert float(ours.high) == pytest.approx(float(other.b), rel=1e-9)
+    certificate = load("p1")
+    parts, turns = (certificate["above"], certificate["below"]), certificate["above"]["turns"]
+    found = 0
+    for u, s in [[piece(parts[0][side]) for side in ("unstable", "stable")]] + [
+        [piece(u), piece(s)] for u in parts[1]["unstable"][::40] for s in parts[1]["stable"][::3]
+    ]:
+        for k in (turns - 1, turns, turns + 1):
+            ours = gap(u, s, period(1) * point(k), Fraction(1, 10**6))
+            if ours is not None:
+                found += 1
+                assert float(ours) == pytest.approx(gap_by_mpmath(u, s, k, 1e-6), rel=1e-9, abs=1e-20)
+    assert found > 10
+
+
+def gap_by_mpmath(u, s, k, spread):
+    """The lower end of the mean value form, for all shared times and |mu' - mu| <= spread."""
+    turn = 2 * iv.pi * k
+    U, S = ({name: interval(getattr(one, name)) for name in ("t", "x", "time", "slope", "by_mu")} for one in (u, s))
+    back = turn - S["time"]
+    low, high = max(U["time"].a, back.a), min(U["time"].b, back.b)
+    c, reach = iv.mpf((low + high) / 2), iv.mpf([low, high]) - iv.mpf((low + high) / 2)
+    at_c = S["x"] - U["x"] - S["slope"] * (c - (turn - S["t"])) - U["slope"] * (c - U["t"])
+    return float((at_c + (-S["slope"] - U["slope"]) * reach + (S["by_mu"] - U["by_mu"]) * iv.mpf([-spread, spread])).a)
 
 
 def interval(ends):
