@@ -4,7 +4,7 @@ from fractions import Fraction
 from itertools import pairwise
 from random import Random
 
-from .check import covers, oscillator
+from .check import covers, oscillator, sides
 from .cover import cover, falling, halves, shared
 from .oscillator import NotProved
 from .pieces import Setting, factor, first_pieces, flown, piece
@@ -40,8 +40,8 @@ def prove_interval(task):
     osc, low, high = task
     try:
         here = setting(osc, low, high)
-        sides, least = cover(here, WIDTH, most=MOST)
-        texts = [halvings(side, rows) for side, rows in zip((here, here.reversed()), sides, strict=True)]
+        both, least = cover(here, WIDTH, most=MOST)
+        texts = [halvings(side, rows) for (side, _), rows in zip(sides(here), both, strict=True)]
         return [[str(low), str(high), *texts, f"{float(least):.2e}"]]
     except NotProved:
         middle = rounded((low + 2 * high) / 3)
@@ -102,20 +102,24 @@ def covered(pair, have):
 def check_first(certificate, records, sample=20, seed=0):
     """Assert that the intervals cover (0, low] and, in one of them, that pieces cover and a sample of pairs is apart.
 
-    Raises NotProved. Returns how many pairs of the sample share a phase.
+    sample : pieces of each manifold that are flown; None: all of them, in all intervals, which is the whole proof.
+    Raises NotProved. Returns how many pairs of pieces shared a phase.
     """
     osc, low = oscillator(certificate), Fraction(certificate["low"])
     if not covered((Fraction(0), low), {(record[0], record[1]) for record in records}):
         raise NotProved(f"the intervals do not cover (0, {float(low)}]")
     chance = Random(seed)
-    record = chance.choice(records)
-    here, sides = setting(osc, Fraction(record[0]), Fraction(record[1])), []
-    for side, text in zip((here, here.reversed()), record[2:4], strict=True):
+    return sum(_apart(osc, one, sample, chance) for one in (records if sample is None else [chance.choice(records)]))
+
+
+def _apart(osc, record, sample, chance):
+    here, both = setting(osc, Fraction(record[0]), Fraction(record[1])), []
+    for (side, _), text in zip(sides(here), record[2:4], strict=True):
         ends = pieces(side, text)
         covers(side, ends)
-        chosen = chance.sample(ends, min(sample, len(ends)))
-        sides.append([piece(one) for one in falling([flown(side, *one) for one in chosen])])
-    unstable, stable = sides
+        chosen = ends if sample is None else chance.sample(ends, min(sample, len(ends)))
+        both.append([piece(one) for one in falling([flown(side, *one) for one in chosen])])
+    unstable, stable = both
     apart = [least for one in unstable for _, least in shared(one, stable, period(osc.omega), here.spread)]
     if apart and not min(apart) > 0:
         raise NotProved(f"the manifolds may meet at a mu from {record[0]} to {record[1]}: gap {float(min(apart)):.1e}")
