@@ -18,7 +18,7 @@ LAB_DEFAULTS := { \
 .PHONY: book test check-book lab bench record maps window reproducible mutants pdf archive lint clean environment baselines headline
 
 book: $(READY)
-	@$(BIN)/python extensions/build.py $(JOBS)
+	@$(BIN)/python book/sphinx/build.py $(JOBS)
 
 test: $(READY)
 	$(BIN)/python -m pytest --numprocesses=2 --dist=loadfile
@@ -41,32 +41,32 @@ check-book: $(READY)
 
 # The whole book as one PDF, and as a checksummed zip for a repository of record.
 pdf: book
-	$(BIN)/python scripts/pdf.py
+	$(BIN)/python tools/pdf.py
 
 archive: book
-	$(BIN)/python scripts/archive.py
+	$(BIN)/python tools/archive.py
 
 # Planes and basins at full resolution into _build/maps: hours on two cores; an interrupted run goes on where it was.
 maps: $(READY)
-	$(BIN)/python scripts/maps.py
-	$(BIN)/python scripts/maps_basins.py 512
-	$(BIN)/python scripts/maps_transients.py
+	$(BIN)/python tools/maps.py
+	$(BIN)/python tools/maps_basins.py 512
+	$(BIN)/python tools/maps_transients.py
 
 # Two runs of the chapters, on one thread and on several: the same numbers bit for bit.
 reproducible: $(READY)
-	$(BIN)/python scripts/reproducible.py
+	$(BIN)/python tools/reproducible.py
 
 # Deliberate errors, one at a time: each must turn the suite red.
 mutants: $(READY)
-	$(BIN)/python scripts/mutants.py
+	$(BIN)/python tools/mutants.py
 
 # The window of chaos from 200 starts instead of the book's 32: some minutes.
 window: $(READY)
-	$(BIN)/python scripts/window.py
+	$(BIN)/python tools/window.py
 
 # The picture in the README.
 headline: $(READY)
-	$(BIN)/python scripts/headline.py
+	$(BIN)/python tools/headline.py
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -11,16 +11,17 @@ import time
 import numpy as np
 from numba import njit
 
-from duffing.kernels.powers import evaluate, fma, power
-from duffing.kernels.vectors import widest_vectors
+from duffing.integrators.powers import evaluate, fma, power
+from duffing.integrators.vectors import widest_vectors
 
 from .rewrites import STEPS
 from .sweep import PERIODS, family, kernel
 
 POWERS = 4
-# Additions, products and fused multiply-adds of a step as in duffing/rk4.py: in each of four stages 5 for the force, 4
-# for the slopes of v and eta; for sums and next arguments 4 in the first stage and 8 in each other; 2 products with h.
-# The middle stages share mu cos(omega t). With a power, alpha |v|^(p-1) and p times it are 2 more a stage.
+# Additions, products and fused multiply-adds of a step as in `duffing.integrators.rk4`. In each of four stages: 5 for
+# the force, 4 for the slopes of v and eta; for sums and next arguments 4 in the first stage and 8 in each other; 2
+# products with h. The middle stages share mu cos(omega t). With a power, alpha |v|^(p-1) and p times it are 2 more a
+# stage.
 OPERATIONS = {False: 4 * 9 + 4 + 3 * 8 + 2 - 1, True: 4 * 11 + 4 + 3 * 8 + 2 - 1}
 _CHAIN = 16
 

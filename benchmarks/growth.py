@@ -6,7 +6,8 @@ import time
 
 import numpy as np
 
-from duffing import friction, rk4
+from duffing.integrators import rk4
+from duffing.integrators.friction_time import adaptive as friction
 
 from .rewrites import START
 from .sweep import family

@@ -10,8 +10,10 @@ import warnings
 
 import numpy as np
 
-from duffing import friction, paper, rk4
-from duffing.book.precision import WorkPrecision, evaluations_for, reference_state
+from book.studies.friction_time import WorkPrecision, evaluations_for, reference_state
+from duffing import paper
+from duffing.integrators import rk4
+from duffing.integrators.friction_time import adaptive as friction
 
 from . import peers, rewrites
 from .harness import Result

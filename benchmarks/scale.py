@@ -16,7 +16,7 @@ from multiprocessing import get_context
 from dask.distributed import Client, LocalCluster
 
 from duffing import Duffing
-from duffing.parallel.cost import Workers, block_seconds, pays_from, seconds, workers
+from duffing.sweep.cost import Workers, block_seconds, pays_from, seconds, workers
 
 PLANE = 4096 * 4096
 CORES = 1000

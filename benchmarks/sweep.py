@@ -6,7 +6,9 @@ answer of the textbook's NumPy loop; solvers with a tolerance of their own, the 
 
 import numpy as np
 
-from duffing import friction, paper, rk4
+from duffing import paper
+from duffing.integrators import rk4
+from duffing.integrators.friction_time import adaptive as friction
 
 from . import peers, rewrites
 from .harness import Contestant, agreement, compare

@@ -1,4 +1,10 @@
-"""The Duffing oscillator with power-law (fractional-exponent) damping. See the README and the book."""
+"""The Duffing oscillator with power-law (fractional-exponent) damping. See the README and the book.
+
+The core, these modules and `duffing.integrators`, stands on nothing else of the package; what it offers of the room of
+manifolds is imported when it is asked for.
+"""
+
+from importlib import import_module
 
 from .errors import ConvergenceError, DivergedError, DuffingError, LostWorkerError, NoSaddleOrbitError
 from .flow import trajectory
@@ -6,8 +12,6 @@ from .lyapunov import LyapunovSpectrum, lyapunov_spectrum, two_trajectory_expone
 from .melnikov import critical_amplitude, homoclinic_orbit, melnikov_function
 from .oscillator import Duffing
 from .poincare import poincare_section
-from .saddle import SaddleOrbit, saddle_orbit
-from .tangency import homoclinic_tangency, splitting
 
 __all__ = [
     "ConvergenceError",
@@ -29,3 +33,20 @@ __all__ = [
     "trajectory",
     "two_trajectory_exponent",
 ]
+
+_OF_MANIFOLDS = {
+    "SaddleOrbit": "saddle",
+    "homoclinic_tangency": "tangency",
+    "saddle_orbit": "saddle",
+    "splitting": "tangency",
+}
+
+
+def __getattr__(name):
+    if name not in _OF_MANIFOLDS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f".manifolds.{_OF_MANIFOLDS[name]}", __name__), name)
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

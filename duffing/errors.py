@@ -1,7 +1,7 @@
 """What the package raises when a valid question has no computable answer.
 
 Invalid input is a ValueError (see `checks`); these are for valid input whose answer does not exist or
-was not reached. None of them is ever replaced by a NaN.
+was not reached. None of them is replaced by a NaN unless the caller asks for it (`failures`).
 """
 
 

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from . import checks, friction, rk4
+from . import checks
+from .failures import answers
+from .integrators import rk4
 
 METHODS = ("auto", "rk4", "friction")
 RK4_OPTIONS = ("steps_per_period", "threads")
@@ -23,21 +25,32 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
     """
     checks.model(osc)
     checks.choice("method", method, METHODS)
-    integrator, allowed = (rk4, RK4_OPTIONS) if method == "rk4" else (friction, FRICTION_OPTIONS)
+    if method == "rk4":
+        integrator, allowed = rk4, RK4_OPTIONS
+    else:  # imported when it is called for: all figures of the paper but Fig. 2 are drawn without it
+        from .integrators.friction_time import adaptive as integrator
+
+        allowed = FRICTION_OPTIONS
     for name in options:
         checks.choice(f"an option of method {method!r}", name, allowed)
     return integrator.integrate(osc, state, t, tangents=tangents, **options)
 
 
-def trajectory(osc, state, t, method="auto", **options):
+def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
     """States at the increasing times t: array (2, len(t), *family) of x and v; the state given is the one at t[0].
 
-    state : (2,) for all members or (2, *family); method, options, errors : as for `integrate`.
+    state : (2,) for all members or (2, *family)
+    on_failure : "raise", or "nan": members that diverge or do not converge are NaN, and one warning says so
+    method, options, errors : as for `integrate`
     """
     checks.model(osc)
     t = checks.times(t)
-    orbit = integrate(osc, checks.state(state, osc.shape), t, method=method, **options)
-    return orbit.states.reshape(2, t.size, *osc.shape)
+    state = checks.state(state, osc.shape)
+
+    def states(members):
+        return integrate(osc.members(members), state[:, members], t, method=method, **options).states
+
+    return answers(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
 
 
 def stroboscopic_times(osc, periods, transient=0, phase=0.0):

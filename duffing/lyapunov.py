@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from . import checks
+from .blocks import block_for, over_blocks
 from .flow import integrate, stroboscopic_times
-from .kernels.companion import two_trajectory_growth
-from .sweep import block_for, over_blocks
+from .integrators.companion import two_trajectory_growth
 
 
 class LyapunovSpectrum(NamedTuple):
@@ -21,7 +21,7 @@ class LyapunovSpectrum(NamedTuple):
 
 def lyapunov_spectrum(
     osc, state=(0.45, 0.1), periods=200, transient=40, k=2, method="auto",
-    executor=None, progress=None, checkpoint=None, history=True, **options,
+    executor=None, progress=None, checkpoint=None, history=True, on_failure="raise", **options,
 ):  # the problem, then how it is run  # fmt: skip
     """The k largest Lyapunov exponents of the orbits that start in `state` at t = 0, per unit time.
 
@@ -29,8 +29,9 @@ def lyapunov_spectrum(
     periods, transient : forcing periods averaged over and, before them, thrown away
     k : 1 (the largest alone, cheaper) or 2
     method, options : as for `duffing.flow.integrate`; method="rk4" with transient=0 is the paper's algorithm
-    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`: where it runs, whether it shows how far it is,
+    executor, progress, checkpoint : as for `over_blocks`: where it runs, whether it shows how far it is,
         and the folder from which it can be resumed
+    on_failure : "raise", or "nan": members that diverge or do not converge are NaN, and one warning says so
     history : False leaves out the running estimates, which for a large family need the most memory
 
     Returns a LyapunovSpectrum. An exponent is -inf (its error 0) where a creep through zero force has annihilated the
@@ -48,6 +49,7 @@ def lyapunov_spectrum(
     state = checks.state(state, osc.shape)
     task = {"periods": periods, "transient": transient, "k": k, "method": method, "history": bool(history), **options}
     run = {"block": block_members(**task), "executor": executor, "progress": progress, "checkpoint": checkpoint}
+    run |= {"on_failure": on_failure, "rows": (k, 2 + periods * bool(history))}
     rows = over_blocks(_spectrum_rows, osc, state, task, **run).reshape(k, -1, *osc.shape)
     return LyapunovSpectrum(rows[:, 0], rows[:, 1], rows[:, 2:] if history else None)
 

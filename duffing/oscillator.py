@@ -1,6 +1,6 @@
 """The model, Eq. 1 of the paper: x'' + alpha x'|x'|^(p-1) + delta x + gamma x^3 = mu cos(omega t)."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -41,13 +41,13 @@ class Duffing:
             "p": {"allowed": "a finite number > 0", "lower": 0, "strict": True},
             "omega": {"allowed": "a finite number > 0", "lower": 0, "strict": True},
         }
-        for name in (field.name for field in fields(self)):
+        for name in FIELDS:
             checked = checks.parameter(name, getattr(self, name), **allowed.get(name, {}))
             object.__setattr__(self, name, checked)
         # One mpmath or sympy field makes all of them so: no formula then meets a rounded float.
-        for name, value in zip(vars(self), promoted(*self._values()), strict=True):
+        for name, value in zip(FIELDS, promoted(*self._values()), strict=True):
             object.__setattr__(self, name, value)
-        shapes = {f.name: np.shape(getattr(self, f.name)) for f in fields(self)}
+        shapes = dict(zip(FIELDS, map(np.shape, self._values()), strict=True))
         try:
             family = self.shape
         except ValueError:
@@ -74,17 +74,37 @@ class Duffing:
         return 2 * library(self.omega).pi / self.omega
 
     def columns(self):
-        """The six parameters of every member as float array (6, N): alpha, p, mu, omega, delta, gamma.
+        """The six parameters of every member as float array (6, N), in the order of `FIELDS`.
 
         Raises ValueError for a symbol: only formulas take it.
         """
         full, shape = [], self.shape
-        for name, value in zip(vars(self), self._values(), strict=True):
+        for name, value in zip(FIELDS, self._values(), strict=True):
             try:
                 full.append(np.broadcast_to(np.asarray(value, dtype=float), shape).ravel())
             except TypeError:
                 raise ValueError(f"{name} = {value}: must be a number where the equation is integrated") from None
         return np.array(full)
+
+    def members(self, which=slice(None), **changed):
+        """The members that an index or a mask over all N chooses, in a row: a family of shape (n,), or one oscillator.
+
+        changed : fields of the result that are others, numbers or (n,) each
+        """
+        return replace(Duffing(*self.columns()[:, which]), **changed)
+
+    def repeated(self, times):
+        """Every member so many times one after the other: a family of shape (N times,)."""
+        return Duffing(*np.repeat(self.columns(), times, axis=1))
+
+    @classmethod
+    def joined(cls, oscillators):
+        """The members of several oscillators, one after the other, as one family of shape (N,)."""
+        return cls(*np.concatenate([osc.columns() for osc in oscillators], axis=1))
+
+    def named(self, member=0):
+        """The parameters of one of the N members in words, for a message."""
+        return ", ".join(f"{name} = {value:g}" for name, value in zip(FIELDS, self.columns()[:, member], strict=True))
 
     def potential(self, x):
         """V(x) of Eq. 2: delta x^2 / 2 + gamma x^4 / 4 (energy); x broadcasts against the family."""
@@ -115,8 +135,16 @@ class Duffing:
         alpha, mu, omega = dimensionless_fields(self)
         return Duffing(alpha=alpha, p=self.p, mu=mu, omega=omega)
 
+    def units(self):
+        """Units (3, *family) of length, velocity and forcing for which delta = -1, gamma = 1."""
+        stiffness, cubic = (np.broadcast_to(value, self.shape) for value in (-self.delta, self.gamma))
+        return np.array([np.sqrt(stiffness / cubic), stiffness / np.sqrt(cubic), stiffness**1.5 / np.sqrt(cubic)])
+
     def _values(self):
-        return tuple(getattr(self, field.name) for field in fields(self))
+        return tuple(getattr(self, name) for name in FIELDS)
+
+
+FIELDS = tuple(field.name for field in fields(Duffing))
 
 
 @within_range

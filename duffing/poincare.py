@@ -3,19 +3,20 @@
 import numpy as np
 
 from . import checks
+from .blocks import block_for, over_blocks
 from .flow import integrate, stroboscopic_times
-from .sweep import block_for, over_blocks
 
 
 def poincare_section(
-    osc, state, periods, transient=0, phase=0.0, executor=None, progress=None, checkpoint=None, **options
-):
+    osc, state, periods, transient=0, phase=0.0,
+    executor=None, progress=None, checkpoint=None, on_failure="raise", **options,
+):  # the problem, then how it is run  # fmt: skip
     """Stroboscopic points of orbits that start in `state` at t = 0: array (2, periods, *family) of x and v.
 
     periods, transient : numbers of points kept and, before them, thrown away; the point of number k = 1, 2, ... of
         all of them is the state at t = (phase + 2 pi k) / omega, so that with phase = 0 it is the k-th iterate
     phase : forcing phase omega t (radian) in [0, 2 pi)
-    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`
+    executor, progress, checkpoint, on_failure : as for `over_blocks`
     options, errors : method and options as for `duffing.flow.integrate`
     """
     state = checks.state(state, checks.model(osc).shape)
@@ -25,6 +26,7 @@ def poincare_section(
     total = checks.count("periods", periods) + checks.count("transient", transient, least=0)
     task = {"periods": periods, "transient": transient, "phase": phase, **options}
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
+    run |= {"on_failure": on_failure, "rows": (2, periods)}
     points = over_blocks(_section, osc, state, task, block=block_for(total, **options), **run)
     return points.reshape(2, periods, *osc.shape)
 

@@ -2,7 +2,7 @@ import sys
 from pathlib import Path
 
 BOOK = Path(__file__).parents[1]
-sys.path.append(str(BOOK / "extensions"))
+sys.path.append(str(BOOK / "book" / "sphinx"))
 
 import run_report  # noqa: E402 - its folder is put on the path above
 

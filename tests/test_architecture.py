@@ -1,99 +1,143 @@
-"""The house rules: data flows one way, only the figure modules draw, public names are documented."""
+"""The house rules: three floors, imports go down only, one module draws, public names are documented.
+
+Floors: `duffing` simulates, `book` computes, draws and judges what chapters show, `chapters` call both. Rooms are
+folders; a new module takes part by being in one.
+"""
 
 import ast
-import importlib
 import inspect
+import subprocess
+import sys
+from importlib import import_module
 from pathlib import Path
-
-import pytest
 
 import duffing
 
-PACKAGE = Path(duffing.__file__).parent
-# A module imports only from the rows above its own (and freely within a row's left part: see the test).
-ORDER = [
-    "compiled", "errors", "checks", "arithmetic", "oscillator", "orbit",
-    "melnikov",
-    "vectors", "powers", "forcing", "rk4", "companion",
-    "elementary", "lanes", "friction_time", "dop853", "creep", "frame", "landing", "judge",
-    "follow", "flight", "friction", "turning",
-    "flow",
-    "progress", "checkpoint", "workers", "sweep",
-    "poincare", "lyapunov", "cost", "shooting", "saddle", "manifolds", "tangency", "correction", "sticking",
-    "precision", "paper", "remember", "reproduction", "small_p",
-    "diagram",
-    "periodic", "continuation", "bifurcations", "followed", "bifurcation_study", "resonance_study",
-    "trapping", "capture", "attractors", "basins", "fates", "uncertainty", "boundary", "contact", "basin_study",
-    "lifetimes", "survival", "crisis", "comparison", "transient_study", "comparison_study",
-    "explorer", "basin_explorer", "widgets", "maps",
-    "verdicts", "findings_theory", "findings_exponents", "findings_motion", "findings_contradiction",
-    "tables", "measured", "ledger",
-    "page_figure", "figures", "figures_beyond", "figures_speed", "figures_bifurcations", "figures_basins",
-    "figures_transients", "figures_maps",
-]  # a row for each layer  # fmt: skip
+ROOT = Path(__file__).parents[1]
+# From the ground up: a room imports from itself and from the rooms before it. The first two are the core.
+ROOMS = (
+    ("duffing", "duffing.integrators"),
+    ("duffing.integrators.friction_time",),
+    ("duffing.sweep",),
+    ("duffing.manifolds",),
+    ("duffing.orbits",),
+    ("duffing.basins",),
+    ("duffing.transients",),
+    ("book",),
+    ("book.studies",),
+    ("book.figures",),
+    ("book.pages",),
+    ("book.claims",),
+)
+FLOOR = {room: number for number, rooms in enumerate(ROOMS) for room in rooms}
+PATHS = {
+    ".".join(path.relative_to(ROOT).with_suffix("").parts): path
+    for package in ("duffing", "book")
+    for path in sorted((ROOT / package).rglob("*.py"))
+    if path.stem != "__init__" and "sphinx" not in path.parts
+}
 
 
-def imports(path):
-    """Names of the modules of the package, and of other packages, that a module imports anywhere in its text."""
+def imports(name, nodes=ast.walk):
+    """Modules of the project, and other packages, that a module imports: two sets of dotted names.
+
+    nodes : which of the tree's nodes count; `ast.walk` for imports inside functions, too
+    """
     inside, outside = set(), set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.ImportFrom) and node.level > 0:
-            last = (node.module or "").rpartition(".")[2]
-            inside |= {last} if last in ORDER else {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            outside.add(node.module.partition(".")[0])
-        elif isinstance(node, ast.Import):
+    for node in nodes(ast.parse(PATHS[name].read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
             outside |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = name.split(".")[: -node.level] if node.level else []
+            source = ".".join([*base, *([node.module] if node.module else [])])
+            if source.partition(".")[0] not in ("duffing", "book"):
+                outside.add(source.partition(".")[0])
+            elif source in PATHS:
+                inside.add(source)
+            else:  # names of a room: its modules, or what the package itself offers
+                inside |= {f"{source}.{a.name}" for a in node.names if f"{source}.{a.name}" in PATHS}
     return inside, outside
 
 
-PATHS = [path for path in sorted(PACKAGE.rglob("*.py")) if path.stem != "__init__"]
-MODULES = {path.stem: path for path in PATHS}
+def statements(tree):
+    """Those of the module itself: what it needs to be imported."""
+    return tree.body
 
 
-def test_every_module_has_its_place_in_the_order():
-    assert sorted(path.stem for path in PATHS) == sorted(ORDER)
+def room(name):
+    return name.rpartition(".")[0]
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_a_module_imports_only_modules_left_of_it(name):
-    inside, _ = imports(MODULES[name])
-    later = {other for other in inside if ORDER.index(other) >= ORDER.index(name)}
-    assert not later
+def test_every_folder_of_modules_is_a_room():
+    assert {room(name) for name in PATHS} == set(FLOOR)
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_only_the_figure_modules_draw(name):
-    _, outside = imports(MODULES[name])
-    assert ("matplotlib" in outside) == (name == "page_figure")
+def test_imports_go_down():
+    # What a function of the core imports when it is called for (an integrator, a sweep) is no arrow of the core's own.
+    up = set()
+    for name in PATHS:
+        level = FLOOR[room(name)]
+        called = imports(name, nodes=statements if level == 0 else ast.walk)[0]
+        up |= {(name, other) for other in called if FLOOR[room(other)] > level}
+    assert not up
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    left = {name: imports(name, nodes=statements)[0] for name in PATHS}
+    while left:
+        free = {name for name, needs in left.items() if not needs & left.keys()}
+        assert free, sorted(left)
+        left = {name: needs for name, needs in left.items() if name not in free}
+
+
+def test_the_package_draws_nothing_and_one_room_of_the_book_does():
+    drawing = {room(name) for name in PATHS if "matplotlib" in imports(name)[1]}
+    assert drawing == {"book.figures"}
 
 
 def test_figures_compute_nothing():
-    for name, path in MODULES.items():
-        if name.startswith("figures"):
-            assert imports(path)[0] == ({"page_figure"} if name == "figures" else {"page_figure", "figures"})
+    for name in PATHS:
+        if room(name) == "book.figures":
+            inside, outside = imports(name)
+            assert {room(other) for other in inside} <= {"book.figures"}, name
+            assert "scipy" not in outside, name
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_a_module_holds_one_idea_and_says_which(name):
-    text = (MODULES[name]).read_text()
-    assert ast.get_docstring(ast.parse(text))
-    assert text.count("\n") <= 250
+def test_a_module_holds_one_idea_and_says_which():
+    for name, path in PATHS.items():
+        text = path.read_text(encoding="utf-8")
+        assert ast.get_docstring(ast.parse(text)), name
+        assert text.count("\n") <= 250, name
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_every_public_function_and_class_is_documented(name):
-    module = importlib.import_module(".".join(("duffing", *MODULES[name].relative_to(PACKAGE).with_suffix("").parts)))
-    public = [
-        value
-        for key, value in vars(module).items()
-        if not key.startswith("_")
-        and (inspect.isfunction(value) or inspect.isclass(value))
-        and value.__module__ == module.__name__
-    ]
-    assert [value.__name__ for value in public if not inspect.getdoc(value)] == []
+def test_every_public_function_and_class_is_documented():
+    for name in PATHS:
+        module = import_module(name)
+        silent = [
+            key
+            for key, value in vars(module).items()
+            if not key.startswith("_")
+            and (inspect.isfunction(value) or inspect.isclass(value))
+            and value.__module__ == name
+            and not inspect.getdoc(value)
+        ]
+        assert silent == [], name
+
+
+def test_nothing_takes_a_private_name_from_another_room():
+    for name, path in PATHS.items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and any(alias.name.startswith("_") for alias in node.names):
+                base = ".".join(name.split(".")[: -node.level]) if node.level else ""
+                source = ".".join(filter(None, (base, node.module)))
+                assert room(source) == room(name) or source == room(name), (name, source)
 
 
 def test_public_names_are_sorted_and_importable():
     assert duffing.__all__ == sorted(duffing.__all__)
     assert all(hasattr(duffing, name) for name in duffing.__all__)
+
+
+def test_importing_the_package_loads_no_drawing_library():
+    code = "import sys, duffing; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0

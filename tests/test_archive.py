@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 BOOK = Path(__file__).parents[1]
-sys.path.append(str(BOOK / "scripts"))
+sys.path.append(str(BOOK / "tools"))
 
 import archive  # noqa: E402 - its folder is put on the path above
 

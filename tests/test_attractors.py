@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from duffing import Duffing, poincare_section
-from duffing.attraction.attractors import UNRESOLVED, Attractor, Cells, find_attractors, settle
+from duffing.basins.attractors import UNRESOLVED, Attractor, Cells, find_attractors, settle
 
 RK4 = {"method": "rk4", "steps_per_period": 100}
 THREE = Duffing(mu=0.2)  # an orbit in each well and a large one round both
@@ -141,7 +141,7 @@ def test_not_even_one_with_positive_exponents_if_an_orbit_on_it_is_caught(monkey
     class Positive:
         exponents, error = np.ones(1), np.zeros(1)
 
-    monkeypatch.setattr("duffing.attraction.attractors.lyapunov_spectrum", lambda *args, **kwargs: Positive)
+    monkeypatch.setattr("duffing.basins.attractors.lyapunov_spectrum", lambda *args, **kwargs: Positive)
     assert all(one.period for one in find_attractors(Duffing(mu=0.247), periods=60, **RK4))
 
 

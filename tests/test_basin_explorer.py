@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.pages import basin_explorer, widgets
 from duffing import Duffing, poincare_section
-from duffing.attraction.basins import basins
-from duffing.book import basin_explorer, widgets
+from duffing.basins.basins import basins
 
 
 @pytest.fixture(scope="module")

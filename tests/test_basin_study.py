@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.studies import basins as basin_study
 from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency
-from duffing.attraction.basins import KINDS
-from duffing.attraction.boundary import boundary_dimension, crossings, line_of_starts
-from duffing.attraction.contact import first_contact, homoclinic_strips
-from duffing.attraction.fates import IRREGULAR, LARGE, LEFT, RIGHT
-from duffing.book import basin_study
+from duffing.basins.basins import KINDS
+from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
+from duffing.basins.contact import first_contact, homoclinic_strips
+from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT
 
 RK4 = {"method": "rk4", "steps_per_period": 200}
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from duffing import Duffing, poincare_section
-from duffing.attraction.attractors import UNRESOLVED, find_attractors
-from duffing.attraction.basins import basins, changed
+from duffing.basins.attractors import UNRESOLVED, find_attractors
+from duffing.basins.basins import basins, changed
 
 RK4 = {"method": "rk4", "steps_per_period": 64}
 X, V = np.linspace(-1.6, 1.6, 41), np.linspace(-1.1, 1.1, 31)

@@ -12,7 +12,7 @@ sys.path.append(str(ROOT))
 
 from benchmarks import precision, rewrites, sweep  # noqa: E402 - their folder is put on the path above
 from benchmarks.harness import Contestant, Result, agreement, compare  # noqa: E402 - as above
-from duffing.book import measured  # noqa: E402 - as above
+from book.studies import speed as measured  # noqa: E402 - as above
 
 
 class Clock:

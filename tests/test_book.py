@@ -19,7 +19,7 @@ CONFIG = yaml.safe_load((BOOK / "_config.yml").read_text(encoding="utf-8"))
 TOC = yaml.safe_load((BOOK / "_toc.yml").read_text(encoding="utf-8"))
 CHAPTERS = [TOC["root"], *(chapter["file"] for part in TOC["parts"] for chapter in part["chapters"])]
 CITATION = re.compile(r"`tests/(test_\w+\.py)::(test_\w+)`")
-sys.path.append(str(BOOK / "extensions"))
+sys.path.append(str(BOOK / "book" / "sphinx"))
 
 import cache_key  # noqa: E402 - its folder is put on the path above
 import fingerprint  # noqa: E402 - as above
@@ -133,7 +133,7 @@ def test_a_figure_stands_for_its_panels_but_not_beside_them():
 def sphinx_build(source, pages, config):
     """Build a small book of reStructuredText pages; returns its HTML (page -> text), exit code and complaints."""
     source.mkdir(exist_ok=True)
-    head = f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\nnumfig = True\nnumfig_secnum_depth = 0\n"
+    head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\nnumfig = True\nnumfig_secnum_depth = 0\n"
     (source / "conf.py").write_text(head + textwrap.dedent(config))
     for name, text in pages.items():
         (source / f"{name}.rst").write_text(textwrap.dedent(text))
@@ -269,7 +269,7 @@ cache_depends_on = ["duffing/**/*.py"]
 def test_an_edit_of_the_package_runs_all_chapters_of_a_cell_its_own_and_of_prose_none(tmp_path):
     (tmp_path / "duffing").mkdir()
     (tmp_path / "duffing" / "model.py").write_text("x = 1")
-    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n{CACHED}")
+    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n{CACHED}")
     (tmp_path / "index.md").write_text(PAGE.replace("Prose.", "```{toctree}\nsecond\n```\n\nProse."))
     (tmp_path / "second.md").write_text(PAGE)
     environment = os.environ | {"IPYTHONDIR": str(tmp_path / "ipython")}
@@ -289,7 +289,7 @@ def test_an_edit_of_the_package_runs_all_chapters_of_a_cell_its_own_and_of_prose
 def test_what_ran_while_the_package_was_edited_is_not_stored(tmp_path):
     (tmp_path / "duffing").mkdir()
     (tmp_path / "duffing" / "model.py").write_text("x = 1")
-    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n{CACHED}")
+    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n{CACHED}")
     edit = 'from pathlib import Path\nPath("duffing/model.py").write_text("x = 2")\n'
     (tmp_path / "index.md").write_text(PAGE.replace("import time\n", edit + "import time\n"))
     command = [sys.executable, "-m", "sphinx", "-q", "-b", "html", ".", "_build/html"]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from duffing import ConvergenceError, Duffing, critical_amplitude, saddle_orbit
-from duffing.attraction.boundary import Crossings, boundary_dimension, crossings, line_of_starts, neighbourhood
-from duffing.attraction.fates import IRREGULAR, LARGE, LEFT, RIGHT, fate
+from duffing.basins.boundary import Crossings, boundary_dimension, crossings, line_of_starts, neighbourhood
+from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT, fate
 
 RK4 = {"method": "rk4", "steps_per_period": 96}
 AXIS = ((-1.5, 0.0), (1.5, 0.0))

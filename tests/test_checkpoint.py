@@ -15,10 +15,11 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, diverges_at, marked, marks, starts
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
-from duffing.parallel import checkpoint
-from duffing.parallel.checkpoint import Checkpoint
-from duffing.sweep import over_blocks
+from duffing import DivergedError, Duffing, blocks, lyapunov_spectrum
+from duffing.blocks import over_blocks
+from duffing.sweep import checkpoint
+from duffing.sweep import families as sweep
+from duffing.sweep.checkpoint import Checkpoint
 
 BLOCKS = 10  # of four members
 
@@ -197,7 +198,7 @@ def test_an_edit_anywhere_in_the_package_or_another_version_of_what_it_needs_reu
     monkeypatch.setattr(checkpoint, "PACKAGE", copy)
     checkpoint.surroundings.cache_clear()
     assert checkpoint.surroundings() == known[0]
-    module = copy / "kernels" / "powers.py"
+    module = copy / "integrators" / "powers.py"
     module.write_text(module.read_text() + "\n")
     assert_changed()
     module.rename(module.with_name("potencies.py"))
@@ -240,8 +241,8 @@ def test_two_runs_at_once_on_one_folder_agree_and_leave_it_sound(tmp_path):
 SCRIPT = """
 import sys
 import numpy as np
-from duffing import Duffing, lyapunov_spectrum, sweep
-sweep.BLOCK_SECONDS = 0.02
+from duffing import Duffing, blocks, lyapunov_spectrum
+blocks.BLOCK_SECONDS = 0.02
 osc = Duffing(p=0.1, mu=np.linspace(0.1, 0.3, 400))
 spectrum = lyapunov_spectrum(osc, periods=60, method="rk4", checkpoint=sys.argv[1])
 np.save(sys.argv[2], spectrum.history)
@@ -268,7 +269,7 @@ def test_a_run_killed_half_way_goes_on_where_it_was_and_ends_with_the_identical_
         return run_rows(*arguments)
 
     monkeypatch.setattr(sweep, "_run", counting)
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 0.02)
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 0.02)
     osc = Duffing(p=0.1, mu=np.linspace(0.1, 0.3, 400))
     options = {"periods": 60, "method": "rk4"}
     resumed = lyapunov_spectrum(osc, checkpoint=folder, **options)
@@ -293,6 +294,7 @@ def test_a_folder_that_cannot_be_is_named(tmp_path):
 def test_a_folder_that_may_not_be_written_to_is_named(tmp_path):
     script = (
         "import os, sys\n"
+        "import duffing.sweep.families\n"  # which the user below need not be able to read
         "from duffing import Duffing, lyapunov_spectrum\n"
         "os.getuid() or os.setuid(65534)\n"  # the superuser may write anywhere
         "try: lyapunov_spectrum(Duffing(), checkpoint=sys.argv[1])\n"

@@ -12,9 +12,9 @@ import pytest
 from dask.distributed import Client, LocalCluster
 from sweep_cases import PLANE, diverges_at, kills_its_worker, marked, marks, starts
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
+from duffing import DivergedError, Duffing, blocks, lyapunov_spectrum
+from duffing.blocks import over_blocks
 from duffing.errors import LostWorkerError
-from duffing.sweep import over_blocks
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_exponents_are_bit_for_bit_those_computed_here(method, client, monkeypat
     osc = Duffing(p=np.array([[0.5], [1.0]]), mu=np.linspace(0.1, 0.3, 21))
     options = {"periods": 9, "transient": 2, "method": method}
     here = lyapunov_spectrum(osc, **options)
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 0.01)
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 0.01)
     there = lyapunov_spectrum(osc, executor=client.get_executor(), **options)
     for ours, same in zip(there, here, strict=True):
         np.testing.assert_array_equal(ours, same)

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from duffing import lyapunov_spectrum, rk4, two_trajectory_exponent
+from duffing import lyapunov_spectrum, two_trajectory_exponent
 from duffing.errors import DivergedError
-from duffing.kernels.companion import two_trajectory_growth
+from duffing.integrators import rk4
+from duffing.integrators.companion import two_trajectory_growth
 from duffing.oscillator import Duffing
 
 START = (0.45, 0.1)

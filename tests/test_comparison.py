@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from book.studies import comparison as comparison_study
+from book.studies import small_p
+from book.studies.transients import between
+from book.studies.wandering import dissipated_energy, mean_ratio, wandering
 from duffing import Duffing, critical_amplitude, lyapunov_spectrum
-from duffing.book import comparison_study, small_p
-from duffing.book.comparison import dissipated_energy, mean_ratio, wandering
-from duffing.book.transient_study import between
 
 STEP = {"method": "rk4"}
 

@@ -9,7 +9,7 @@ import numba
 import pytest
 
 import duffing
-from duffing.kernels.compiled import compiled, fingerprint
+from duffing.integrators.compiled import compiled, fingerprint
 
 PACKAGE = Path(duffing.__file__).parent
 RUN = """
@@ -19,7 +19,9 @@ print(float(duffing.trajectory(osc, (0.45, 0.1), [0.0, 2.0], method="rk4")[0, 1]
 """
 
 
-@pytest.mark.parametrize(("module", "changes"), [("kernels/friction_time", True), ("rk4", True), ("figures", False)])
+@pytest.mark.parametrize(
+    ("module", "changes"), [("integrators/friction_time/equations", True), ("integrators/rk4", True), ("paper", False)]
+)
 def test_the_cache_folder_changes_with_an_edit_of_compiled_code_and_with_no_other(module, changes, tmp_path):
     copy = tmp_path / "duffing"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
@@ -46,7 +48,7 @@ def test_an_edit_in_a_called_function_is_not_answered_from_the_cache(tmp_path):
         return float(subprocess.run([sys.executable, "-c", RUN], cwd=tmp_path, check=True, capture_output=True).stdout)
 
     before = run()
-    module = copy / "kernels" / "powers.py"
+    module = copy / "integrators" / "powers.py"
     text = module.read_text()
     edited = text.replace("return q.table[cell] *", "return 2 * q.table[cell] *")
     assert edited != text

@@ -5,8 +5,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from duffing import Duffing, sweep
-from duffing.parallel.cost import Workers, block_seconds, pays_from, seconds, workers
+from duffing import Duffing
+from duffing.sweep import families as sweep
+from duffing.sweep.cost import Workers, block_seconds, pays_from, seconds, workers
 
 
 def played(blocks, block, by):

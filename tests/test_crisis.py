@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.studies import small_p
 from duffing import ConvergenceError, Duffing, saddle_orbit, trajectory
-from duffing.attraction.crisis import crisis, edge_distance, large_saddle, saddles
-from duffing.attraction.lifetimes import both_wells, lifetimes
-from duffing.book import small_p
+from duffing.transients.crisis import crisis, edge_distance, large_saddle, saddles
+from duffing.transients.lifetimes import both_wells, lifetimes
 
 LINEAR = Duffing(p=1.0, mu=np.array([0.242, 0.250]))  # one before the crisis at p = 1, one after it
 STEP = {"method": "rk4"}

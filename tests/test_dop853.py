@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
-from duffing.kernels.dop853 import error
-from duffing.kernels.friction_time import LINEAR, TWO_POWERS
-from duffing.kernels.lanes import BLOCK, NEW, RATE, SLOPES, STATE, H, M, T, W, X
+from duffing.integrators.friction_time.block import BLOCK, NEW, RATE, SLOPES, STATE, H, M, T, W, X
+from duffing.integrators.friction_time.dop853 import error
+from duffing.integrators.friction_time.equations import LINEAR, TWO_POWERS
 
 
 @numba.njit(error_model="numpy")

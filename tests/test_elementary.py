@@ -4,8 +4,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from duffing.kernels.compiled import compiled
-from duffing.kernels.elementary import cosine, logarithm, power
+from duffing.integrators.compiled import compiled
+from duffing.integrators.friction_time.elementary import cosine, logarithm, power
 
 
 @compiled

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
+from book.pages import explorer, widgets
 from duffing import Duffing, lyapunov_spectrum, paper, poincare_section, splitting
-from duffing.book import explorer, widgets
 
 
 @pytest.fixture(scope="module")

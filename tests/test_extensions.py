@@ -1,6 +1,7 @@
 """What the local extensions of Sphinx add to a page: marks of the tests, a line on the run, the package's entries."""
 
 import re
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -13,7 +14,7 @@ import pytest
 import duffing
 
 BOOK = Path(__file__).parents[1]
-sys.path.append(str(BOOK / "extensions"))
+sys.path.append(str(BOOK / "book" / "sphinx"))
 
 import api_page  # noqa: E402 - its folder is put on the path above
 import run_report  # noqa: E402 - as above
@@ -70,7 +71,7 @@ TESTS = '''
 CONFTEST = f"""
     import sys
     from pathlib import Path
-    sys.path.append({str(BOOK / "extensions")!r})
+    sys.path.append({str(BOOK / "book" / "sphinx")!r})
     import run_report
 
     def pytest_configure(config):
@@ -89,7 +90,7 @@ def write(root, files):
 @pytest.fixture
 def book(tmp_path):
     """A small book with tests of its own."""
-    head = f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n"
+    head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n"
     write(tmp_path, {"index.md": INDEX, "tests_page.md": TESTS_PAGE, "pytest.ini": "[pytest]\n"})
     write(tmp_path, {"tests/conftest.py": CONFTEST, "tests/test_a.py": TESTS.format(three=3)})
     (tmp_path / "conf.py").write_text(head + textwrap.dedent(CONFIG))
@@ -106,7 +107,9 @@ def build(book):
     command = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "-n", "--keep-going", ".", "_build/html"]
     run = subprocess.run(command, cwd=book, capture_output=True, text=True)
     complaints = [line for line in run.stderr.splitlines() if "[IPKernelApp]" not in line]
-    return {path.stem: path.read_text() for path in (book / "_build" / "html").glob("*.html")}, "\n".join(complaints)
+    html = book / "_build" / "html"
+    pages = {path.relative_to(html).as_posix().removesuffix(".html"): path for path in html.rglob("*.html")}
+    return {name: path.read_text() for name, path in pages.items()}, "\n".join(complaints)
 
 
 def marks_of(html):
@@ -260,24 +263,59 @@ def test_a_heading_of_a_docstring_is_shown_without_its_dashes():
 
 
 def test_names_in_docstrings_lead_to_the_nearest_entry():
-    names = api_page.Names("duffing")
-    assert names.link("integrate", "duffing.rk4") == ":py:obj:`integrate <duffing.rk4.integrate>`"
-    assert names.link("splitting", "duffing.rk4") == ":py:obj:`splitting <duffing.splitting>`"
-    assert names.link("flow", "duffing.rk4") == ":py:mod:`flow <duffing.flow>`"
-    assert names.link("no such name", "duffing.rk4") == "``no such name``"
+    names = api_page.Names(("duffing", "book"))
+    assert (
+        names.link("integrate", "duffing.integrators.rk4") == ":py:obj:`integrate <duffing.integrators.rk4.integrate>`"
+    )
+    assert names.link("splitting", "duffing.integrators.rk4") == ":py:obj:`splitting <duffing.splitting>`"
+    assert names.link("flow", "duffing.integrators.rk4") == ":py:mod:`flow <duffing.flow>`"
+    assert names.link("no such name", "duffing.integrators.rk4") == "``no such name``"
 
 
-def test_the_page_on_the_package_holds_every_public_name_and_every_module(tmp_path):
-    modules = api_page.modules_of("duffing").values()
-    page = "# The package\n\n```{package-page}\nTheory: melnikov oscillator\n```\n"
-    (tmp_path / "index.md").write_text(page)
-    head = f"import sys\nsys.path.append({str(BOOK / 'extensions')!r})\n"
+def test_the_pages_on_the_package_hold_every_public_name_and_every_module(tmp_path):
+    rooms = [room for package in ("duffing", "book") for room in api_page.rooms_of(package)]
+    assert {path.stem for path in (BOOK / "chapters" / "api").glob("*.md")} == set(rooms), "a page for each room"
+    shutil.copytree(BOOK / "chapters" / "api", tmp_path / "api")
+    pages = "\n".join(f"api/{room}" for room in rooms)
+    (tmp_path / "index.md").write_text(
+        f"# The package\n\n```{{toctree}}\n{pages}\n```\n\n```{{package-overview}}\n```\n"
+    )
+    head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n"
     (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "api_page"]\nhtml_theme = "basic"\n')
     html, complaints = build(tmp_path)
     assert complaints == ""
     for name in duffing.__all__:
         assert html["index"].count(f'id="duffing.{name}"') == 1, name
-    for name in modules:
-        assert html["index"].count(f'id="module-{name}"') == 1, name
-    assert html["index"].index("module-duffing.melnikov") < html["index"].index("module-duffing.checks")
-    assert "Alias for field number" not in html["index"]
+    for package in ("duffing", "book"):
+        for name in api_page.modules_of(package):
+            assert html[f"api/{name.rpartition('.')[0]}"].count(f'id="module-{name}"') == 1, name
+
+
+NUMBERS = """
+    ---
+    file_format: mystnb
+    kernelspec: {name: python3, display_name: Python 3, language: python}
+    ---
+    # Page
+
+    ```{code-cell} python
+    from myst_nb import glue
+    glue("small", -1.36e-3, display=False)
+    ```
+
+    It is {glue:text}`small:.2e`, code stays `-1e-03`.
+
+    | a | b |
+    | :-- | :-- |
+    | -0.5 | `-0.5` |
+"""
+
+
+def test_glued_numbers_and_tables_are_typeset_and_code_is_not(tmp_path):
+    (tmp_path / "index.md").write_text(textwrap.dedent(NUMBERS).lstrip())
+    head = f"import sys\nsys.path[:0] = [{str(BOOK / 'book' / 'sphinx')!r}, {str(BOOK)!r}]\n"
+    (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "typeset_numbers"]\nhtml_theme = "basic"\n')
+    html, _ = build(tmp_path)
+    assert 'It is <span class="pasted-text">\u22121.36 \u00d7 10\u207b\u00b3</span>' in html["index"]
+    assert "<p>\u22120.5</p>" in html["index"]
+    assert html["index"].count("-1e-03") == html["index"].count(">-0.5<") == 1

@@ -10,10 +10,10 @@ import nbformat
 import numpy as np
 import pytest
 
-from duffing.page_figure import PageFigure, styled
+from book.figures.style import PageFigure, styled
 
 BOOK = Path(__file__).parents[1]
-sys.path.append(str(BOOK / "extensions"))
+sys.path.append(str(BOOK / "book" / "sphinx"))
 
 import figure_files  # noqa: E402 - its folder is put on the path above
 
@@ -124,13 +124,13 @@ mystnb:
   figure: {name: fig-4a, caption: A line that rises.}
   image: {alt: a straight line from the lower left to the upper right}
 ---
-from duffing.figures import fig1a
+from book.figures.paper import fig1a
 fig1a([0.0, 1.0], [0.0, 2.0])
 ```
 """
 CONF = f"""
 import sys
-sys.path.append({str(BOOK / "extensions")!r})
+sys.path.append({str(BOOK / "book" / "sphinx")!r})
 extensions = ["myst_nb", "downloads", "figure_files"]
 html_theme = "basic"
 exclude_patterns = ["_build"]

@@ -8,7 +8,9 @@ import ast
 import io
 from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 
+import cases
 import matplotlib.image
 import numpy as np
 import pytest
@@ -16,11 +18,15 @@ from matplotlib.legend import Legend
 from matplotlib.text import Text
 from matplotlib.ticker import NullFormatter
 
-from duffing import figures
+from book.figures import paper as figures
 
 BASELINE = Path(__file__).with_name("baseline")
-# Each file figure_cases*.py holds a dict CASES, name -> Case: a new file takes part by being there.
-FILES = [import_module(path.stem) for path in sorted(Path(__file__).parent.glob("figure_cases*.py"))]
+# Each file of tests/cases holds a dict CASES, name -> Case: a new file takes part by being there.
+FILES = [
+    import_module(f"cases.{name}")
+    for name in sorted(chapter.name for chapter in iter_modules(cases.__path__))
+    if name != "case"
+]
 CASES = {name: case for file in FILES for name, case in file.CASES.items()}
 
 
@@ -81,7 +87,7 @@ def test_every_figure_of_the_paper_has_its_case():
 
 def figure_functions():
     """Names of the functions that draw a figure, those that @styled marks, in the modules of figures."""
-    for path in sorted(Path(figures.__file__).parent.rglob("figures*.py")):
+    for path in sorted(Path(figures.__file__).parent.glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.FunctionDef) and any(ast.unparse(mark) == "styled" for mark in node.decorator_list):
                 yield f"{path.stem}.{node.name}"
@@ -89,8 +95,9 @@ def figure_functions():
 
 @pytest.mark.parametrize("function", list(figure_functions()))
 def test_every_figure_function_is_drawn_by_a_case(function):
-    drawn = {ast.unparse(node.func) for file in FILES for node in ast.walk(ast.parse(Path(file.__file__).read_text()))
-             if isinstance(node, ast.Call)}  # one set, over files and calls  # fmt: skip
+    case = Path(cases.__path__[0], function.partition(".")[0]).with_suffix(".py")
+    calls = [node for node in ast.walk(ast.parse(case.read_text())) if isinstance(node, ast.Call)]
+    drawn = {ast.unparse(call.func).replace("figures.", f"{case.stem}.") for call in calls}
     assert function in drawn
 
 

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from duffing.book import comparison_study, findings_contradiction, transient_study
+from book.claims import contradiction as findings_contradiction
+from book.studies import comparison as comparison_study
+from book.studies import transients as transient_study
 
 
 def test_at_equal_forcing_the_exponent_of_chaos_is_smaller_at_small_p_beyond_doubt():

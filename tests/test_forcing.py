@@ -4,8 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from duffing import rk4
-from duffing.kernels import forcing
+from duffing.integrators import forcing, rk4
 from duffing.oscillator import Duffing
 
 START = (0.45, 0.1)

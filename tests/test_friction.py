@@ -5,10 +5,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from duffing import friction
 from duffing.errors import ConvergenceError, DivergedError
-from duffing.kernels import turning
-from duffing.kernels.creep import _A, _C
+from duffing.integrators.friction_time import adaptive as friction
+from duffing.integrators.friction_time import turning_points as turning
+from duffing.integrators.friction_time.radau import _A, _C
 from duffing.oscillator import Duffing
 
 START = np.array([0.45, 0.1])

@@ -1,5 +1,6 @@
-"""The functions of the rooms `orbits` and `attraction`, and of the manifolds, refuse what an argument cannot be by its
-name, as those of `duffing` itself do (test_inputs.py). Warnings are errors here too.
+"""The functions of the rooms refuse what an argument cannot be by its name, as those of `duffing` itself do.
+
+See test_inputs.py. Warnings are errors here too.
 """
 
 import inspect
@@ -12,9 +13,9 @@ from bad_inputs import BAD, COUNTS, NOTHING, NUMBERS, POSITIVE
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from duffing import Duffing, DuffingError, attraction, orbits
-from duffing.attraction.crisis import large_saddle
+from duffing import Duffing, DuffingError, basins, orbits, transients
 from duffing.orbits.bifurcations import orbit_branches
+from duffing.transients.crisis import large_saddle
 
 OSC = Duffing(alpha=0.1, p=1.0, mu=0.02)
 STRONG = Duffing(alpha=0.1, p=1.0, mu=0.3)
@@ -36,14 +37,13 @@ def line(s):
 
 # A valid call of each; in it one argument after the other is replaced by something that it is not.
 CALLS = {
-    "manifolds.unstable_manifold": CURVE,
-    "manifolds.stable_manifold": CURVE,
+    "manifolds.curves.unstable_manifold": CURVE,
+    "manifolds.curves.stable_manifold": CURVE,
     "melnikov.damping_integral": {"osc": OSC},
     "melnikov.forcing_integral": {"osc": OSC},
     "melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
-    "sticking.saddle_friction_time": {"osc": OSC},
-    "sticking.sticking_amplitude": {"osc": OSC},
-    "correction.tangency_correction": {"osc": Duffing(p=0.5)},
+    "manifolds.sticking.sticking_amplitude": {"osc": OSC},
+    "manifolds.correction.tangency_correction": {"osc": Duffing(p=0.5)},
     "orbits.periodic.half_return": ORBIT,
     "orbits.periodic.periodic_orbit": ORBIT,
     "orbits.periodic.periodic_orbits": {"osc": OSC, "starts": START, "halves": 2, "apart": 1e-5},
@@ -56,40 +56,40 @@ CALLS = {
     "orbits.bifurcations.orbit_branches": {
         "osc": Duffing(alpha=0.1, mu=[0.02]), "state": [[1.0], [0.0]], "halves": 2, "field": "mu", "bounds": (0.0, 0.03)
     },
-    "attraction.attractors.find_attractors": {"osc": OSC, "starts": START, "periods": 100},
-    "attraction.attractors.settle": {"osc": OSC, "states": START, "attractors": (), "periods": 10, "phase": 0.0},
-    "attraction.basins.basins": {
+    "basins.attractors.find_attractors": {"osc": OSC, "starts": START, "periods": 100},
+    "basins.attractors.settle": {"osc": OSC, "states": START, "attractors": (), "periods": 10, "phase": 0.0},
+    "basins.basins.basins": {
         "osc": OSC, "x": [0.9], "v": [0.0], "attractors": (), "periods": 10, "phase": 0.0
     },
-    "attraction.boundary.crossings": {"follow": line, "reach": 0.2, "least": 1e-3, "most": 1000},
-    "attraction.boundary.line_of_starts": {"osc": OSC, "start": (0.0, 0.0), "end": (1.0, 0.0), "periods": 6},
-    "attraction.contact.homoclinic_strips": STRIPS,
-    "attraction.contact.first_contact": {**STRIPS, "low": 0.07, "high": 0.09, "halvings": 1, "periods": 14},
-    "attraction.crisis.large_saddle": {"osc": STRONG},
-    "attraction.crisis.saddles": {"osc": STRONG, "outer": OUTER},
-    "attraction.crisis.crisis": {
+    "basins.boundary.crossings": {"follow": line, "reach": 0.2, "least": 1e-3, "most": 1000},
+    "basins.boundary.line_of_starts": {"osc": OSC, "start": (0.0, 0.0), "end": (1.0, 0.0), "periods": 6},
+    "basins.contact.homoclinic_strips": STRIPS,
+    "basins.contact.first_contact": {**STRIPS, "low": 0.07, "high": 0.09, "halvings": 1, "periods": 14},
+    "transients.crisis.large_saddle": {"osc": STRONG},
+    "transients.crisis.saddles": {"osc": STRONG, "outer": OUTER},
+    "transients.crisis.crisis": {
         "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "upper": 0.26, "outer": OUTER, "steps": 1, "points": 200
     },
-    "attraction.fates.fate": {"osc": OSC, "states": START, "periods": 6, "last": 4},
-    "attraction.lifetimes.lifetimes": {
+    "basins.fates.fate": {"osc": OSC, "states": START, "periods": 6, "last": 4},
+    "transients.lifetimes.lifetimes": {
         "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
         "tangents": 0,
     },
-    "attraction.survival.survival": {"time": SAMPLE["time"], "settled": SAMPLE["settled"]},
-    "attraction.survival.exponential": SAMPLE,
-    "attraction.survival.rate": {"time": SAMPLE["time"], "captured": SAMPLE["settled"], "since": 0},
-    "attraction.survival.law_test": {**SAMPLE, "until": 13, "resamples": 2, "seed": 1},
-    "attraction.uncertainty.uncertain_starts": {
+    "transients.survival.survival": {"time": SAMPLE["time"], "settled": SAMPLE["settled"]},
+    "transients.survival.exponential": SAMPLE,
+    "transients.survival.rate": {"time": SAMPLE["time"], "captured": SAMPLE["settled"], "since": 0},
+    "transients.survival.law_test": {**SAMPLE, "until": 13, "resamples": 2, "seed": 1},
+    "basins.uncertainty.uncertain_starts": {
         "label": sides, "box": ((-1, 1), (-1, 1)), "eps": [0.1], "starts": 10, "seed": 1
     },
-    "attraction.uncertainty.dimension": {"eps": [0.1, 0.01, 0.001], "uncertain": [30, 10, 3], "starts": 100},
+    "basins.uncertainty.dimension": {"eps": [0.1, 0.01, 0.001], "uncertain": [30, 10, 3], "starts": 100},
 }  # an entry a line, or two  # fmt: skip
 # Those that take what another one gave, or what a caller inside the package has checked.
 WITHIN = {
     "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
     " switched",
-    "attraction": "boundary_dimension both_wells capture changed contracted_form copies edge_distance look ordered"
-    " neighbourhood points_of read returns trap",
+    "basins": "boundary_dimension capture changed contracted_form look ordered neighbourhood points_of read trap",
+    "transients": "both_wells edge_distance returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
 STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
@@ -132,9 +132,9 @@ WRONG = BAD | {
 }
 # An argument of one name is not the same thing everywhere.
 OTHERWISE = {
-    "attraction.attractors.find_attractors": {"starts": SOME},
-    "attraction.uncertainty.uncertain_starts": {"starts": [0, *COUNTS]},
-    "attraction.uncertainty.dimension": {"starts": [0, *COUNTS]},
+    "basins.attractors.find_attractors": {"starts": SOME},
+    "basins.uncertainty.uncertain_starts": {"starts": [0, *COUNTS]},
+    "basins.uncertainty.dimension": {"starts": [0, *COUNTS]},
 }
 
 
@@ -143,7 +143,7 @@ def call(name, **arguments):
     return getattr(import_module(f"duffing.{module}"), function)(**{**CALLS[name], **arguments})
 
 
-@pytest.mark.parametrize("room", [orbits, attraction])
+@pytest.mark.parametrize("room", [orbits, basins, transients])
 def test_every_function_of_the_room_is_called_here_or_named_as_one_that_is_not(room):
     name = room.__name__.removeprefix("duffing.")
     found = set()
@@ -171,10 +171,10 @@ def test_what_an_argument_cannot_be_is_refused_by_its_name(name, argument):
 
 
 SINGLE = (
-    "manifolds.unstable_manifold", "melnikov.melnikov_quadrature", "orbits.periodic.periodic_orbits",
-    "attraction.attractors.find_attractors", "attraction.attractors.settle", "attraction.basins.basins",
-    "attraction.boundary.line_of_starts", "attraction.contact.homoclinic_strips", "attraction.contact.first_contact",
-    "attraction.crisis.large_saddle",
+    "manifolds.curves.unstable_manifold", "melnikov.melnikov_quadrature", "orbits.periodic.periodic_orbits",
+    "basins.attractors.find_attractors", "basins.attractors.settle", "basins.basins.basins",
+    "basins.boundary.line_of_starts", "basins.contact.homoclinic_strips", "basins.contact.first_contact",
+    "transients.crisis.large_saddle",
 )  # names in rows, not a column  # fmt: skip
 
 
@@ -186,10 +186,11 @@ def test_a_family_is_refused_where_one_oscillator_is_needed(name):
 
 # What takes no more than some seconds with any oscillator.
 ANY_OSCILLATOR = (
-    "manifolds.stable_manifold", "sticking.saddle_friction_time", "correction.tangency_correction",
+    "manifolds.curves.stable_manifold",
+    "manifolds.correction.tangency_correction",
     "orbits.periodic.periodic_orbit", "orbits.periodic.periodic_orbits", "orbits.periodic.path",
-    "orbits.diagram.bifurcation_diagram", "attraction.attractors.find_attractors",
-    "attraction.contact.homoclinic_strips", "attraction.fates.fate", "attraction.lifetimes.lifetimes",
+    "orbits.diagram.bifurcation_diagram", "basins.attractors.find_attractors",
+    "basins.contact.homoclinic_strips", "basins.fates.fate", "transients.lifetimes.lifetimes",
 )  # names in rows, not a column  # fmt: skip
 
 
@@ -217,8 +218,7 @@ def test_any_oscillator_is_answered_with_finite_numbers_or_refused(name, **param
     except ValueError as error:
         assert any(f"{parameter} = " in str(error) for parameter in parameters)
     else:
-        infinite = name == "sticking.saddle_friction_time"  # where the orbit sticks, and then it says so
-        assert all(np.all(np.isfinite(number) | (infinite & (number == np.inf))) for number in numbers_of(result))
+        assert all(np.all(np.isfinite(number)) for number in numbers_of(result))
 
 
 def test_steps_that_are_too_long_to_be_squared_are_not_taken():

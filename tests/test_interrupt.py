@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, marked, marks, starts
 
-from duffing.sweep import over_blocks
+from duffing.blocks import over_blocks
 
 # A run of many minutes on the executor that the command line names, or one that is not cut into blocks.
 SCRIPT = """
@@ -36,7 +36,7 @@ if __name__ == "__main__":
     if kind == "threads":
         run(None)
     elif kind == "whole":
-        from duffing.attraction.attractors import settle
+        from duffing.basins.attractors import settle
         osc, states = Duffing(p=0.1, mu=0.27), np.random.default_rng(0).uniform(-1, 1, (2, 100_000))
         settle(osc, states[:, :4], periods=4)
         threading.Timer(2.0, started, (0, 0)).start()  # in the midst of it

@@ -72,7 +72,7 @@ def small(tmp_path):
         config = yaml.safe_load((BOOK / "_config.yml").read_text())
         config["sphinx"]["config"] |= {"paper_equations": 0, "paper_figures": []}
         (root / "_config.yml").write_text(yaml.safe_dump(config))
-        (root / "extensions").symlink_to(BOOK / "extensions")
+        (root / "extensions").symlink_to(BOOK / "book" / "sphinx")
         (root / "chapters" / "_static").symlink_to(BOOK / "chapters" / "_static")
         return root
 
@@ -80,7 +80,7 @@ def small(tmp_path):
 
 
 def start(root):
-    command = [sys.executable, "-u", "extensions/build.py", "1"]
+    command = [sys.executable, "-u", "book/sphinx/build.py", "1"]
     with (root / "output").open("w") as output:
         return subprocess.Popen(command, cwd=root, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from duffing import friction
 from duffing.errors import DivergedError
-from duffing.kernels import turning
-from duffing.kernels.lanes import WIDTH
+from duffing.integrators.friction_time import adaptive as friction
+from duffing.integrators.friction_time import turning_points as turning
+from duffing.integrators.friction_time.block import WIDTH
 from duffing.oscillator import Duffing
 
 PERIOD = 2 * np.pi

@@ -2,9 +2,9 @@
 
 import pytest
 
+from book.claims import ledger
+from book.claims.verdicts import CONFIRMED, LIMITED, NOT_CHECKABLE, NOT_CONFIRMED, VERDICTS, Finding, decide, finds
 from duffing import paper
-from duffing.book import ledger
-from duffing.book.verdicts import CONFIRMED, LIMITED, NOT_CHECKABLE, NOT_CONFIRMED, VERDICTS, Finding, decide, finds
 
 EXPECTED = {
     CONFIRMED: "eq-1-5 eq-2 saddle eq-8 eq-8-limits fig-2 eq-13 eq-14-15 above-line false-positive small-amplitude "

@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg
 
 from duffing import Duffing, lyapunov_spectrum, poincare_section
-from duffing.attraction.lifetimes import both_wells, lifetimes
+from duffing.transients.lifetimes import both_wells, lifetimes
 
 LINEAR = Duffing(alpha=0.1, p=1.0, mu=0.5, delta=3.0, gamma=0.0)  # x'' + x'/10 + 3 x = cos(t) / 2
 

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from duffing import ConvergenceError, Duffing, critical_amplitude
-from duffing.manifolds import stable_manifold, unstable_manifold
-from duffing.saddle import saddle_orbit
+from duffing.manifolds.curves import stable_manifold, unstable_manifold
+from duffing.manifolds.saddle import saddle_orbit
 
 LINEAR = Duffing(alpha=0.1, mu=0.12)
 GENERAL = Duffing(alpha=0.2, p=0.6, mu=0.5, omega=1.3, delta=-2.0, gamma=0.5)

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.studies import maps
 from duffing import Duffing, critical_amplitude, lyapunov_spectrum, paper
-from duffing.book import maps
 
 SHORT = {"transient": 5, "periods": 10}
 

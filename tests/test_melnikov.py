@@ -7,7 +7,7 @@ import scipy.integrate
 import scipy.optimize
 import sympy as sp
 
-from duffing import Duffing, critical_amplitude, homoclinic_orbit, melnikov_function
+from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_orbit, melnikov, melnikov_function
 from duffing.melnikov import damping_integral, forcing_integral, least_critical_frequency, melnikov_quadrature
 
 ALPHA, P, MU, OMEGA, GAMMA = sp.symbols("alpha p mu omega gamma", positive=True)
@@ -114,6 +114,38 @@ def test_forcing_integral_follows_from_the_known_transform_of_sech():
     amplitude = sp.sqrt(-2 * DELTA / GAMMA)
     by_parts = amplitude * OMEGA * (transform / sp.sqrt(-DELTA)).subs(k, OMEGA / sp.sqrt(-DELTA))
     assert sp.simplify((by_parts - forcing_integral(SYMBOLIC)).rewrite(sp.exp)) == 0
+
+
+def relative_error(osc, t0, digits):
+    """Of the quadrature, to the larger of the two terms of the closed form."""
+    value = melnikov_quadrature(osc, t0, digits=digits)
+    with mpmath.workdps(digits + 200):
+        exact = Duffing(*map(mpmath.mpf, (osc.alpha, osc.p, osc.mu, osc.omega, osc.delta, osc.gamma)))
+        t0 = mpmath.mpf(t0)
+        forcing = exact.mu * forcing_integral(exact) * mpmath.sin(exact.omega * t0)
+        return abs(value - melnikov_function(exact, t0)) / max(abs(forcing), exact.alpha * damping_integral(exact))
+
+
+@pytest.mark.parametrize("digits", [15, 40])
+@pytest.mark.parametrize("p", [0.001, 1.0, 50.0])
+@pytest.mark.parametrize("omega", [0.001, 1.0, 40.0])
+def test_quadrature_has_the_digits_asked_for_at_every_frequency_and_exponent(omega, p, digits):
+    assert relative_error(Duffing(alpha=0.1, p=p, mu=0.3, omega=omega), 0.7, digits) < mpmath.mpf(10) ** -digits
+
+
+@pytest.mark.parametrize(("omega", "digits"), [(40.0, 50), (200.0, 15), (1.0, 120)])
+def test_quadrature_resolves_the_forcing_alone_where_its_oscillation_cancels_all_that_doubles_hold(omega, digits):
+    assert relative_error(Duffing(alpha=0.0, mu=0.3, omega=omega), 0.7, digits) < mpmath.mpf(10) ** -digits
+
+
+def test_quadrature_of_no_damping_and_no_forcing_is_zero():
+    assert melnikov_quadrature(Duffing(alpha=0.0, mu=0.0), 0.3, digits=20) == 0
+
+
+def test_quadrature_whose_sums_do_not_agree_is_a_named_error(monkeypatch):
+    monkeypatch.setattr(melnikov, "_loop_velocity", lambda osc, t, lib: lib.sech(t) * lib.cos(1e3 * t))
+    with pytest.raises(ConvergenceError, match=r"^digits = 20: the sums agree to a part in"):
+        melnikov_quadrature(Duffing(mu=0.3), 0.7, digits=20)
 
 
 def test_forcing_integral_equals_scipys_quadrature():

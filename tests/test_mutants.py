@@ -1,4 +1,4 @@
-"""The list of deliberate errors (scripts/mutants.py) fits the code: each of them can be made, at one place."""
+"""The list of deliberate errors (tools/mutants.py) fits the code: each of them can be made, at one place."""
 
 import runpy
 from pathlib import Path
@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-MUTANTS = runpy.run_path(ROOT / "scripts" / "mutants.py")["MUTANTS"]
+MUTANTS = runpy.run_path(ROOT / "tools" / "mutants.py")["MUTANTS"]
 
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: f"{mutant.module}: {mutant.what}")
 def test_the_error_can_be_put_into_the_code_at_one_place(mutant):
-    (path,) = (ROOT / "duffing").rglob(f"{mutant.module}.py")
+    path = ROOT / f"{mutant.module.replace('.', '/')}.py"
     assert path.read_text().count(mutant.good) == 1
     assert mutant.bad != mutant.good
 

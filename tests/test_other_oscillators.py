@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 
-from duffing import Duffing, critical_amplitude, figures, homoclinic_orbit, paper
-from duffing.book import figures_beyond, reproduction, small_p
-from duffing.manifolds import stable_manifold, unstable_manifold
+from book.figures import paper as figures
+from book.figures import small_p as figures_small_p
+from book.studies import reproduction, small_p
+from duffing import Duffing, critical_amplitude, homoclinic_orbit, paper
+from duffing.manifolds.curves import stable_manifold, unstable_manifold
 
 OTHER = Duffing(alpha=0.25, p=0.4, mu=0.8, omega=0.7, delta=-2.0, gamma=0.5)
 # LINEAR with another unit of length (1), of time (1/2) and so of velocity (2) and of forcing (4).
@@ -68,19 +70,19 @@ def fig6():
 
 def resolved():
     curve = reproduction.exponent_curve(0.4, step=0.2, last=2.0, osc=OTHER)
-    return figures_beyond.resolved_exponents(
+    return figures_small_p.resolved_exponents(
         *curve, *small_p.exact_curve(0.4, step=0.2, last=2.0, osc=OTHER), paper.THRESHOLD
     )
 
 
 def many_starts():
     window = small_p.window(columns=2, rows=2, step=0.2, first=0.8, last=1.2, periods=50, osc=OTHER)
-    return figures_beyond.many_starts(*window, *reproduction.exponent_curve(0.4, step=0.2, last=2.0, osc=OTHER))
+    return figures_small_p.many_starts(*window, *reproduction.exponent_curve(0.4, step=0.2, last=2.0, osc=OTHER))
 
 
 def dry_limit():
     p, mu = (0.2, 0.4), (0.2, 0.4, 0.8, 1.2, 1.6)
-    return figures_beyond.dry_limit(np.array(p), small_p.dry_limit(p, mu, osc=OTHER)[0], np.array(mu))
+    return figures_small_p.dry_limit(np.array(p), small_p.dry_limit(p, mu, osc=OTHER)[0], np.array(mu))
 
 
 FIGURES = (fig1a, fig1b, fig2, fig3a, fig3b, fig4, fig5, fig6, resolved, many_starts, dry_limit)

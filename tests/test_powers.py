@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from duffing.kernels import powers
+from duffing.integrators import powers
 
 EXPONENTS = [-0.99, -0.9, -0.5, -0.05, 0.3, 0.5, 1.0, 2.0, 7.3, 40.0, 150.0]
 LEAST_NORMAL = 2.0**-1022

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.studies import friction_time as precision
+from book.studies.friction_time import WorkPrecision, evaluations_for
 from duffing import paper, trajectory
-from duffing.book import precision
-from duffing.book.precision import WorkPrecision, evaluations_for
 
 OSC = replace(paper.OSCILLATOR, mu=0.27)
 END = 3 * OSC.period

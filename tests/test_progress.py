@@ -12,8 +12,8 @@ from jupyter_client import BlockingKernelClient
 from nbclient import NotebookClient
 
 from duffing import Duffing, lyapunov_spectrum
-from duffing.parallel import progress
-from duffing.parallel.progress import reporting
+from duffing.sweep import progress
+from duffing.sweep.progress import reporting
 
 CALL = """
 import numpy as np

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from duffing.book.remember import remembered
+from book.remember import remembered
 
 
 def test_a_result_is_computed_once_whether_asked_for_with_a_list_an_array_or_a_tuple():

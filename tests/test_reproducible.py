@@ -7,7 +7,7 @@ import nbformat.v4 as v4
 import pytest
 
 ROOT = Path(__file__).parents[1]
-sys.path.append(str(ROOT / "scripts"))
+sys.path.append(str(ROOT / "tools"))
 
 import reproducible  # noqa: E402 - its folder is put on the path above
 
@@ -73,3 +73,16 @@ def test_a_kernel_is_told_how_many_processors_it_has(tmp_path, monkeypatch):
     for threads in (1, 3):
         (shown,) = reproducible.run("chapters/x", threads, tmp_path).cells[-1].outputs
         assert shown["data"]["text/plain"] == str(threads)
+
+
+def test_a_run_is_compared_with_the_hashes_of_an_earlier_one(tmp_path, monkeypatch):
+    monkeypatch.setattr(reproducible, "KEPT", tmp_path / "_build" / "outputs.json")
+    monkeypatch.setattr(reproducible, "run", lambda *_: notebook())
+    with pytest.raises(SystemExit, match="run with --save first"):
+        reproducible.main(["--against", "chapters/x"])
+    reproducible.main(["--save", "chapters/x"])
+    reproducible.main(["--against", "chapters/x"])
+    monkeypatch.setattr(reproducible, "run", lambda *_: notebook(glued="1.6"))
+    reproducible.main(["chapters/x"])
+    with pytest.raises(SystemExit, match=r"1 of 6 outputs"):
+        reproducible.main(["--against", "chapters/x"])

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from book.studies import reproduction
 from duffing import lyapunov_spectrum, paper
-from duffing.book import reproduction
 from duffing.flow import integrate
 
 

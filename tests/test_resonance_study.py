@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from book.studies import resonance
 from duffing import ConvergenceError, Duffing, paper, poincare_section
-from duffing.book import resonance_study as resonance
 from duffing.orbits.bifurcations import FOLD
 from duffing.orbits.continuation import BOUND
 from duffing.orbits.followed import amplitude, at_exponent, curves, speed

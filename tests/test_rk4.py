@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from duffing import friction, rk4
 from duffing.errors import DivergedError
+from duffing.integrators import rk4
+from duffing.integrators.friction_time import adaptive as friction
 from duffing.oscillator import Duffing
 
 START = (0.45, 0.1)

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.studies import small_p
 from duffing import ConvergenceError, lyapunov_spectrum, paper, trajectory
-from duffing.book import small_p
 
 
 def test_chaos_is_summed_up_by_the_statistics_of_its_positive_runs():

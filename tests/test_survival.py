@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from duffing import ConvergenceError
-from duffing.attraction.survival import exponential, law_test, rate, survival
+from duffing.transients.survival import exponential, law_test, rate, survival
 
 SEED = 314159
 

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, context, diverges_at, marked, marks, starts
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, sweep
+from duffing import DivergedError, Duffing, blocks, lyapunov_spectrum
+from duffing.blocks import block_of, over_blocks
 from duffing.lyapunov import _average, _spectrum_rows
-from duffing.sweep import block_of, over_blocks
+from duffing.sweep import families as sweep
 
 FAMILY = Duffing(p=np.array([[0.5], [1.0]]), mu=np.linspace(0.1, 0.3, 21))
 
@@ -43,7 +44,7 @@ def processes():
 def test_exponents_are_bit_for_bit_the_same_in_threads_and_in_processes(method, processes, monkeypatch):
     options = {"periods": 9, "transient": 2, "method": method}
     here = lyapunov_spectrum(FAMILY, **options)
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 0.01)  # blocks of a few members
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 0.01)  # blocks of a few members
     with ThreadPoolExecutor(2) as threads:
         for executor in (None, threads, processes, partial(ThreadPoolExecutor, 3)):
             for ours, same in zip(lyapunov_spectrum(FAMILY, executor=executor, **options), here, strict=True):
@@ -123,7 +124,7 @@ def test_a_block_of_an_executor_takes_one_thread_unless_more_are_asked_for(given
 
 
 def test_only_a_bounded_number_of_tasks_is_under_way(monkeypatch):
-    monkeypatch.setattr("duffing.parallel.workers.IN_FLIGHT", 5)
+    monkeypatch.setattr("duffing.sweep.workers.IN_FLIGHT", 5)
     under_way, most = [], []
 
     class Watched(ThreadPoolExecutor):
@@ -209,9 +210,9 @@ def test_progress_counts_members_up_to_the_whole_family():
 
 
 def test_blocks_are_short_whole_groups_of_members_and_never_empty():
-    assert block_of(sweep.BLOCK_SECONDS / 20.5) == 20
-    assert block_of(sweep.BLOCK_SECONDS / 20.5, groups=(8, 64)) == 16
-    assert block_of(sweep.BLOCK_SECONDS / 150.5, groups=(8, 64)) == 128
+    assert block_of(blocks.BLOCK_SECONDS / 20.5) == 20
+    assert block_of(blocks.BLOCK_SECONDS / 20.5, groups=(8, 64)) == 16
+    assert block_of(blocks.BLOCK_SECONDS / 150.5, groups=(8, 64)) == 128
     assert block_of(1e9) == 1
     assert block_of(1e9, groups=(8, 64)) == 8
     assert block_of(1e-12) == 4096

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from sweep_cases import context
 
-from duffing import Duffing, poincare_section, sweep
-from duffing.attraction.attractors import find_attractors, settle
-from duffing.attraction.basins import basins
-from duffing.attraction.fates import fate
-from duffing.attraction.lifetimes import lifetimes
-from duffing.book import basin_study, transient_study
+from book.studies import basins as basin_study
+from book.studies import transients as transient_study
+from duffing import Duffing, blocks, poincare_section
+from duffing.basins.attractors import find_attractors, settle
+from duffing.basins.basins import basins
+from duffing.basins.fates import fate
 from duffing.orbits.diagram import bifurcation_diagram
-from duffing.parallel.checkpoint import Checkpoint
+from duffing.sweep.checkpoint import Checkpoint
+from duffing.transients.lifetimes import lifetimes
 
 LOOSE = {"rtol": 1e-6, "atol": 1e-8}
 RK4 = {"method": "rk4", "steps_per_period": 100}
@@ -89,7 +90,7 @@ def test_a_stay_in_chaos_counts_on_over_a_search():
 @pytest.mark.parametrize("case", CASES)
 def test_in_blocks_on_threads(case, monkeypatch):
     whole, seen = case(), []
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 1e-9)  # the smallest blocks
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 1e-9)  # the smallest blocks
     _same(case(progress=lambda done, total: seen.append((done, total))), whole)
     assert len(seen) > 2 and seen[-1][0] == seen[-1][1]
 
@@ -97,14 +98,14 @@ def test_in_blocks_on_threads(case, monkeypatch):
 @pytest.mark.parametrize("case", CASES)
 def test_in_processes(case, processes, monkeypatch):
     whole = case()
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 1e-9)
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 1e-9)
     _same(case(executor=processes), whole)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_resumed_from_what_an_interrupted_run_has_kept(case, tmp_path, monkeypatch):
     whole = case()
-    monkeypatch.setattr(sweep, "BLOCK_SECONDS", 1e-9)
+    monkeypatch.setattr(blocks, "BLOCK_SECONDS", 1e-9)
 
     class Interrupted(Exception):
         pass

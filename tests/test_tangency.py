@@ -10,10 +10,10 @@ from scipy.integrate import odeint
 from scipy.optimize import fsolve
 
 from duffing import Duffing, critical_amplitude, melnikov_function
-from duffing.correction import tangency_correction
 from duffing.errors import ConvergenceError, NoSaddleOrbitError
-from duffing.saddle import saddle_frame
-from duffing.tangency import _highest, _split, homoclinic_tangency, splitting
+from duffing.manifolds.correction import tangency_correction
+from duffing.manifolds.saddle import saddle_frame
+from duffing.manifolds.tangency import _highest, _split, homoclinic_tangency, splitting
 
 PHASES = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.studies import transients as transient_study
 from duffing import ConvergenceError, paper, poincare_section, trajectory
-from duffing.attraction.survival import exponential
-from duffing.book import transient_study
+from duffing.transients.survival import exponential
 
 STEP = {"method": "rk4"}
 

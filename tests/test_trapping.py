@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from duffing.attraction.trapping import LARGEST, RATIO, contracted_form, trap
+from duffing.basins.trapping import LARGEST, RATIO, contracted_form, trap
 
 
 def repeated(step):

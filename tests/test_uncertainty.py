@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from duffing import ConvergenceError, Duffing
-from duffing.attraction.fates import fate
-from duffing.attraction.uncertainty import dimension, uncertain_starts
+from duffing.basins.fates import fate
+from duffing.basins.uncertainty import dimension, uncertain_starts
 
 BOX = ((-1.0, 1.0), (-1.0, 1.0))
 

@@ -5,10 +5,12 @@ import numba
 import numpy as np
 import pytest
 
-from duffing import rk4
-from duffing.kernels import dop853, friction_time, judge
-from duffing.kernels.powers import fma
-from duffing.kernels.vectors import stack, widest_vectors
+from duffing.integrators import rk4
+from duffing.integrators.friction_time import dop853
+from duffing.integrators.friction_time import equations as friction_time
+from duffing.integrators.friction_time import step_control as judge
+from duffing.integrators.powers import fma
+from duffing.integrators.vectors import stack, widest_vectors
 from duffing.oscillator import Duffing
 
 WIDE = llvm.get_host_cpu_features().get("avx512f", False)

@@ -9,9 +9,9 @@ import pytest
 from sweep_cases import PLANE, context, kills_its_worker, marked, marks, starts
 
 from duffing import Duffing
+from duffing.blocks import over_blocks
 from duffing.errors import LostWorkerError
-from duffing.parallel import workers
-from duffing.sweep import over_blocks
+from duffing.sweep import workers
 
 
 def run(executor, mu, **more):

@@ -14,13 +14,12 @@ import numpy as np
 
 from .. import checks
 from ..errors import ConvergenceError
-from ..oscillator import Duffing
+from ..oscillator import FIELDS, Duffing
 from .continuation import correct, follow_branches
 from .periodic import half_return, multipliers_of
 
 FOLD, FLIP = "fold", "flip"
 _SIGN = {FOLD: -1.0, FLIP: 1.0}
-FIELDS = ("alpha", "p", "mu", "omega", "delta", "gamma")
 _SHIFT = 1e-6  # of finite differences: the maps' error of 1e-10 leaves a derivative right to 1e-4
 
 
@@ -65,23 +64,20 @@ def orbit_branches(osc, state, halves=2, *, field="mu", bounds=(0.0, 0.5), optio
     bounds : of the parameter; options : of the integrator; steps : as for `continuation.follow_branches`
     """
     checks.choice("field", field, FIELDS)
-    columns = checks.model(osc).columns()
-    halves = checks.counts("halves", halves, columns.shape[1])
-    function = _closing(columns, field, halves, options or {})
-    parameter = columns[FIELDS.index(field)]
-    found = follow_branches(function, checks.state(state, osc.shape), parameter, bounds=bounds, **steps)
+    starts = checks.model(osc).members()
+    halves = checks.counts("halves", halves, starts.mu.size)
+    function = _closing(starts, field, halves, options or {})
+    found = follow_branches(function, checks.state(state, osc.shape), getattr(starts, field), bounds=bounds, **steps)
     sizes = [branch.parameter.size for branch in found]
     member = np.repeat(np.arange(len(found)), sizes)
-    family = _with(columns[:, member], field, np.concatenate([branch.parameter for branch in found]))
+    family = starts.members(member, **{field: np.concatenate([branch.parameter for branch in found])})
     every = np.concatenate([branch.u for branch in found], axis=1)
     multipliers = multipliers_of(half_return(family, every, halves[member], **(options or {})))
     result = []
     for j, branch in enumerate(found):
         own = member == j
-        part = Duffing(*family.columns()[:, own])
-        result.append(
-            OrbitBranch(part, field, int(halves[j]), branch.u, branch.parameter, multipliers[:, own], branch.end)
-        )
+        orbits = family.members(own), field, int(halves[j]), branch.u, branch.parameter, multipliers[:, own]
+        result.append(OrbitBranch(*orbits, branch.end))
     return result
 
 
@@ -109,21 +105,19 @@ def bifurcations(branches):
         raise ValueError(f"branches vary {sorted({name[-1] for name in names})}: must be of one field")
     other = "p" if field != "p" else "mu"  # unused: Newton's method keeps it
     kinds, halves = [name[1] for name in names], np.array([name[3] for name in names])
-    function = _degenerate(guesses[2:], field, other, halves, kinds, {})
-    z = np.vstack([guesses[:2], guesses[2 + FIELDS.index(field)], guesses[2 + FIELDS.index(other)]])
+    near = Duffing(*guesses[2:])
+    function = _degenerate(near, field, other, halves, kinds, {})
+    z = np.vstack([guesses[:2], getattr(near, field), getattr(near, other)])
     normal = np.zeros_like(z)
     normal[-1] = 1.0
     z, _, _, settled = correct(function, z, normal, np.arange(z.shape[1]), 1e-8)
     if not settled.all():
         bad = np.argmin(settled)
-        raise ConvergenceError(
-            f"the {kinds[bad]} near {field} = {guesses[2 + FIELDS.index(field), bad]:g} is not found"
-        )
-    family = _with(guesses[2:], field, z[2])
+        raise ConvergenceError(f"the {kinds[bad]} near {field} = {getattr(near, field)[bad]:g} is not found")
+    family = near.members(**{field: z[2]})
     directions = _directions(half_return(family, z[:2], halves).derivative, kinds)
     for j, (number, kind, index, k, _) in enumerate(names):
-        osc = Duffing(*family.columns()[:, j])
-        result[number].append(Bifurcation(kind, osc, k, z[:2, j], directions[:, j], int(index)))
+        result[number].append(Bifurcation(kind, family.members(j), k, z[:2, j], directions[:, j], int(index)))
     return [sorted(found, key=lambda one: one.index) for found in result]
 
 
@@ -134,11 +128,11 @@ def switched(flips, *, field="mu", bounds=(0.0, 0.5), distance=0.01, options=Non
     branch by the distance along the flip's direction.
     """
     halves = np.array([2 * flip.halves for flip in flips])
-    columns = np.concatenate([flip.osc.columns() for flip in flips], axis=1)
+    family = Duffing.joined([flip.osc for flip in flips])
     directions = np.vstack([np.array([flip.direction for flip in flips]).T, np.zeros(len(flips))])
     state = np.array([flip.state for flip in flips]).T + distance * directions[:2]
     return orbit_branches(
-        Duffing(*columns), state, halves, field=field, bounds=bounds, options=options, direction=directions, **steps
+        family, state, halves, field=field, bounds=bounds, options=options, direction=directions, **steps
     )
 
 
@@ -147,26 +141,19 @@ def loci(found, *, field="mu", second="p", bounds=(0.1, 3.0), options=None, **st
 
     found : list of Bifurcation, the starts; bounds : of the second parameter; steps : as for `follow_branches`
     """
-    columns = np.concatenate([one.osc.columns() for one in found], axis=1)
+    starts = Duffing.joined([one.osc for one in found])
     halves = np.array([one.halves for one in found])
-    function = _degenerate(columns, field, second, halves, [one.kind for one in found], options or {})
-    u = np.vstack([np.array([one.state for one in found]).T, columns[FIELDS.index(field)]])
-    return follow_branches(function, u, columns[FIELDS.index(second)], bounds=bounds, tolerance=1e-7, **steps)
+    function = _degenerate(starts, field, second, halves, [one.kind for one in found], options or {})
+    u = np.vstack([np.array([one.state for one in found]).T, getattr(starts, field)])
+    return follow_branches(function, u, getattr(starts, second), bounds=bounds, tolerance=1e-7, **steps)
 
 
-def _with(columns, field, value):
-    changed = columns.copy()
-    changed[FIELDS.index(field)] = value
-    return Duffing(*changed)
-
-
-def _closing(columns, field, halves, options):
+def _closing(osc, field, halves, options):
     """g = N^k (u) - u and its derivatives, for `follow_branches`."""
 
     def function(u, parameter, member):
         size = member.size
-        both = np.tile(columns[:, member], 2)
-        family = _with(both, field, np.concatenate([parameter, parameter + _SHIFT]))
+        family = osc.members(np.tile(member, 2), **{field: np.concatenate([parameter, parameter + _SHIFT])})
         done = half_return(family, np.tile(u, 2), np.tile(halves[member], 2), **options)
         by_parameter = (done.image[:, size:] - done.image[:, :size]) / _SHIFT
         return done.image[:, :size] - u, done.derivative[:, :, :size] - np.eye(2)[:, :, None], by_parameter
@@ -174,7 +161,7 @@ def _closing(columns, field, halves, options):
     return function
 
 
-def _degenerate(columns, field, second, halves, kinds, options):
+def _degenerate(osc, field, second, halves, kinds, options):
     """g = (N^k (x, v) - (x, v), characteristic polynomial of the derivative at +1 or -1) of u = (x, v, field)."""
     sign = np.array([_SIGN[kind] for kind in kinds])
 
@@ -183,7 +170,7 @@ def _degenerate(columns, field, second, halves, kinds, options):
         z = np.tile(np.vstack([u, parameter]), 5)
         for row in range(4):
             z[row, (row + 1) * size : (row + 2) * size] += _SHIFT
-        family = _with(_with(np.tile(columns[:, member], 5), field, z[2]).columns(), second, z[3])
+        family = osc.members(np.tile(member, 5), **{field: z[2], second: z[3]})
         done = half_return(family, z[:2], np.tile(halves[member], 5), **options)
         trace = done.derivative[0, 0] + done.derivative[1, 1]
         test = 1 + np.tile(sign[member], 5) * trace + np.exp(done.log_area)

@@ -5,12 +5,13 @@ would, and follows one attractor until it ends; upwards and downwards it need no
 every mu see whatever attracts any of them.
 """
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import checks
+from ..oscillator import FIELDS
 from ..poincare import poincare_section
 
 
@@ -37,7 +38,7 @@ def bifurcation_diagram(
     mu : (n,) increasing
     starts : (2, m) x and v; the first of them also begins both sweeps
     transient, kept : forcing periods thrown away and, after them, kept, at every mu
-    executor, progress, checkpoint : as for `duffing.sweep.over_blocks`, which carries the fresh starts; the sweeps in
+    executor, progress, checkpoint : as for `over_blocks`, which carries the fresh starts; the sweeps in
         mu go on from one forcing to the next and cannot be cut
     options, errors : method and options as for `duffing.flow.integrate`
     """
@@ -67,6 +68,6 @@ def _sweeps(osc, mu, start, run):
 
 def _expanded(osc, axes, mu):
     """The family with `axes` more axes at its end and the forcing mu."""
-    values = {field.name: np.asarray(getattr(osc, field.name)) for field in fields(osc)}
+    values = {name: np.asarray(getattr(osc, name)) for name in FIELDS}
     wider = {name: value.reshape(*value.shape, *[1] * axes) for name, value in values.items() if value.ndim}
     return replace(osc, **(wider | {"mu": mu}))

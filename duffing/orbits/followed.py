@@ -1,6 +1,5 @@
 """What is read off branches of periodic orbits: amplitudes, speeds, stroboscopic points, where they bifurcate."""
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -45,19 +44,18 @@ def curves(followed, value=amplitude):
     """
     result = []
     for name, branch, found in followed:
-        columns, state = branch.osc.columns(), branch.state
+        osc, state = branch.osc, branch.state
         # From a stable point on, a curve is stable up to the bifurcation: that counts as stable when a neighbour is.
         stable = branch.stable
         place = np.array([flaw.index + 1 for flaw in found], dtype=int)
         order = np.argsort(place, kind="stable")
         beside = [stable[k - 1] or stable[k] for k in place[order]]
-        extra = [np.concatenate([flaw.osc.columns()[:, 0], flaw.state]) for flaw in found]
-        if extra:
-            extra = np.array(extra)[order].T
-            columns = np.insert(columns, place[order], extra[:6], axis=1)
-            state = np.insert(state, place[order], extra[6:], axis=1)
+        if found:
+            chosen = [found[k] for k in order]
+            at = np.insert(np.arange(len(stable)), place[order], len(stable) + np.arange(len(chosen)))
+            osc = Duffing.joined([osc, *(flaw.osc for flaw in chosen)]).members(at)
+            state = np.insert(state, place[order], np.transpose([flaw.state for flaw in chosen]), axis=1)
             stable = np.insert(stable, place[order], beside)
-        osc = Duffing(*columns)
         result.append((name, getattr(osc, branch.field), value(osc, state, branch.halves), stable))
     return result
 
@@ -98,7 +96,7 @@ def orbits_at(followed, mu):
         for j in np.flatnonzero(((low - mu) * (high - mu) < 0) | (low == mu)):
             share = (mu - low[j]) / (high[j] - low[j])
             guess = (1 - share) * branch.state[:, j] + share * branch.state[:, j + 1]
-            orbit = periodic_orbit(replace(Duffing(*branch.osc.columns()[:, j]), mu=mu), guess, branch.halves)
+            orbit = periodic_orbit(branch.osc.members(j, mu=mu), guess, branch.halves)
             known = result.setdefault(name, [])
             # Two branches that leave the same start both hold it.
             if not any(np.max(np.abs(orbit.state - other.state)) < 1e-6 for other in known):

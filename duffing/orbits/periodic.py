@@ -18,8 +18,6 @@ import numpy as np
 from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate
-from ..oscillator import Duffing
-from ..saddle import names
 
 TOLERANCE = {"rtol": 1e-10, "atol": 1e-12}
 _STEPS = 25
@@ -76,14 +74,14 @@ def periodic_orbit(osc, state, halves=2, **options):
 
     Raises ValueError for invalid input, ConvergenceError naming the first member that Newton's method does not solve.
     """
-    guess, columns = checks.state(state, checks.model(osc).shape), osc.columns()
-    state, found = _newton(columns, guess, halves, options)
+    guess, flat = checks.state(state, checks.model(osc).shape), osc.members()
+    state, found = _newton(flat, guess, halves, options)
     if not found.all():
         bad = np.argmin(found)
         raise ConvergenceError(
-            f"{names(osc, bad)}: Newton's method finds no orbit with halves = {halves} from {guess[:, bad]}"
+            f"{osc.named(bad)}: Newton's method finds no orbit with halves = {halves} from {guess[:, bad]}"
         )
-    multipliers = multipliers_of(half_return(Duffing(*columns), state, halves, **options))
+    multipliers = multipliers_of(half_return(flat, state, halves, **options))
     return PeriodicOrbit(state.reshape(2, *osc.shape), multipliers.reshape(2, *osc.shape))
 
 
@@ -96,13 +94,12 @@ def periodic_orbits(osc, starts, halves=2, apart=1e-5, **options):
     """
     starts, halves = checks.starts(starts), checks.count("halves", halves)
     checks.positive("apart", apart)
-    columns = np.repeat(checks.single(osc).columns(), starts.shape[1], axis=1)
-    state, found = _newton(columns, starts, halves, options)
+    state, found = _newton(checks.single(osc).repeated(starts.shape[1]), starts, halves, options)
     state = state[:, found]
     keep = []
     if not found.any():
         return PeriodicOrbit(np.empty((2, 0)), np.empty((2, 0), dtype=complex))
-    for points in np.moveaxis(cycle(Duffing(*columns[:, found]), state, halves, **options), -1, 0):
+    for points in np.moveaxis(cycle(osc.repeated(found.sum()), state, halves, **options), -1, 0):
         parts = [k for k in range(1, halves) if halves % k == 0]
         if any(np.max(np.abs(points[:, k] - points[:, 0])) < apart for k in parts):
             continue
@@ -113,7 +110,7 @@ def periodic_orbits(osc, starts, halves=2, apart=1e-5, **options):
     chosen = np.array(sorted(keep, key=lambda point: point[0])).reshape(-1, 2).T
     if not keep:
         return PeriodicOrbit(chosen, np.empty((2, 0), dtype=complex))
-    family = Duffing(*columns[:, : len(keep)])
+    family = osc.repeated(len(keep))
     return PeriodicOrbit(chosen, multipliers_of(half_return(family, chosen, halves, **options)))
 
 
@@ -137,11 +134,11 @@ def path(osc, state, halves=2, samples=200, **options):
     return states.reshape(2, samples + 1, *osc.shape)
 
 
-def _newton(columns, guess, halves, options):
+def _newton(osc, guess, halves, options):
     """Refined states (2, N) and whether each member converged; steps are cut to a length."""
     state, found, live = guess.copy(), np.zeros(guess.shape[1], dtype=bool), np.arange(guess.shape[1])
     for _ in range(_STEPS):
-        image, derivative, _ = half_return(Duffing(*columns[:, live]), state[:, live], halves, **options)
+        image, derivative, _ = half_return(osc.members(live), state[:, live], halves, **options)
         step = _solve(derivative - np.eye(2)[:, :, None], state[:, live] - image)
         length = np.hypot(*step)
         state[:, live] += step * np.minimum(1, _LONGEST / np.maximum(length, _LONGEST))

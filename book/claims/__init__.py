@@ -1,0 +1,1 @@
+"""The paper's claims, judged: a finding for each, gathered in the ledger."""

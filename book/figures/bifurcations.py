@@ -1,0 +1,148 @@
+"""Figures of branches of periodic orbits, their bifurcations and resonances: arrays in, a Figure out.
+
+A branch comes as (name, parameter (n,), value (n,) or (k, n), stable (n,) bool), a mark as (kind, parameter, value).
+"""
+
+import numpy as np
+
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, PageFigure, line_of, styled
+
+ORBIT_COLOUR = {"in a well": BLUE, "round both wells": VERMILION, "saddle orbit": GREY, "period 3": GREEN}
+LOCUS_LOOK = {
+    "in a well, fold": (BLUE, "-"),
+    "in a well, flip": (SKY, "--"),
+    "round both wells, fold": (VERMILION, "-"),
+    "period 3, fold": (GREEN, "-"),
+    "period 3, flip": (GREEN, "--"),
+}
+MARKER = {"fold": "o", "flip": "^"}
+MU, OMEGA = r"forcing amplitude $\mu$ (dimensionless)", r"forcing frequency $\omega$ (dimensionless)"
+
+
+def draw_branch(axes, parameter, value, stable, **look):
+    """One branch: stable parts thick, unstable parts thin and dashed."""
+    # Unstable pieces reach to their stable neighbours, so that no gap is left between the two.
+    weak = ~stable | np.append(~stable[1:], False) | np.append(False, ~stable[:-1])
+    for held, style in ((stable, {"linewidth": 2.0}), (weak, {"linewidth": 0.9, "linestyle": (0, (4, 2))})):
+        for row in np.atleast_2d(value):
+            axes.plot(np.where(held, parameter, np.nan), np.where(held, row, np.nan), **(look | style))
+
+
+def draw_marks(axes, marks):
+    """Folds as open circles, flips as open triangles."""
+    for kind, parameter, value in marks:
+        look = {"color": BLACK, "fillstyle": "none", "markersize": 5, "zorder": 5}
+        axes.plot(parameter, value, MARKER[kind], linestyle="none", label=kind, **look)
+
+
+def colour_of(name):
+    """The colour of the orbit, also for the doubled and the asymmetric ones that leave it."""
+    if name.endswith(("doubled", "asymmetric")):
+        return PURPLE if name.startswith("in a well") else ORANGE
+    return ORBIT_COLOUR[name]
+
+
+@styled
+def branch_panels(cases, last):
+    """Amplitude against mu, a panel for each p: dict p -> (branches, marks, mu_c)."""
+    fig = PageFigure(figsize=(7.2, 6.4))
+    panels = fig.subplots(2, -(-len(cases) // 2), sharex=True, sharey=True)
+    for axes, (p, (branches, marks, mu_c)) in zip(panels.flat, cases.items(), strict=False):
+        axes.axvline(mu_c, color=BLACK, linestyle=":", linewidth=1.0, label=r"$\mu_c$, Eq. 13")
+        for name, mu, value, stable in branches:
+            draw_branch(axes, mu, value, stable, color=colour_of(name), label=name)
+        draw_marks(axes, marks)
+        axes.set_title(f"$p = {p:g}$", fontsize=10)
+        axes.set(xlim=(0, last), ylim=(0, None))
+    _legend(fig, panels.flat[0])
+    fig.supxlabel(MU, fontsize=11)
+    fig.supylabel("half the range of $x$ (dimensionless)", fontsize=11)
+    return fig
+
+
+@styled
+def overlay(cases):
+    """Stroboscopic x against mu, a panel for each p: dict p -> (brute, branches), brute a dict name -> (mu, x) (n,)."""
+    columns = 1 if len(cases) <= 2 else 2
+    rows = -(-len(cases) // columns)
+    fig = PageFigure(figsize=(7.2 if columns == 1 else 9.6, 3.6 * rows))
+    panels = fig.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    looks = {"many starts": (GREY, ".", 3), "forward sweep": (BLACK, ">", 2.5), "backward sweep": (BLACK, "<", 2.5)}
+    for axes, (p, (brute, branches)) in zip(panels, cases.items(), strict=True):
+        for name, mu, value, stable in branches:
+            draw_branch(axes, mu, value, stable, color=colour_of(name), label=name)
+        for name, (mu, x) in brute.items():
+            colour, marker, size = looks[name]
+            look = {"marker": marker, "color": colour, "markersize": size, "markeredgewidth": 0, "zorder": 3}
+            axes.plot(mu, x, linestyle="none", label=name, rasterized=True, **look)
+        axes.set(ylim=(-1.7, 1.7))
+        axes.set_title(f"$p = {p:g}$", fontsize=10)
+    for axes in panels[::columns]:
+        axes.set_ylabel("$x$ at phase 0 (dimensionless)")
+    low, high = (f([f(mu) for mu, _ in brute.values()]) for f in (np.min, np.max))
+    for axes in panels[-columns:]:
+        axes.set(xlabel=MU, xlim=(low, high))
+    _legend(fig, panels[0])
+    return fig
+
+
+@styled
+def loci(curves, p, mu_c, p_touch, tangency, mu_last=0.3):
+    """Bifurcations in the (p, mu) plane: curves (name, p, mu, ...), Eq. 13 as a black line, tangencies as crosses."""
+    fig = PageFigure(figsize=(6.8, 4.8))
+    axes = fig.subplots()
+    for name, where, mu, *_ in curves:
+        colour, dash = LOCUS_LOOK[name]
+        axes.plot(where, mu, color=colour, linestyle=dash, label=name)
+    axes.plot(p, mu_c, color=BLACK, linewidth=1.6, label=r"$\mu_c$, Eq. 13")
+    axes.plot(p_touch, tangency, "x", color=BLACK, markeredgewidth=1.6, label="homoclinic tangency")
+    axes.set(xlabel="damping exponent $p$", ylabel=MU, xlim=(0, p[-1]), ylim=(0, mu_last))
+    _legend(fig, axes)
+    return fig
+
+
+@styled
+def responses(panels, omega_range, amplitude_last=0.75):
+    """In-well amplitude against omega, a panel for each mu: dict mu -> dict p -> (branches, marks)."""
+    fig = PageFigure(figsize=(7.4, 4.0))
+    for axes, (mu, cases) in zip(fig.subplots(1, len(panels), sharey=True), panels.items(), strict=True):
+        _response(axes, cases)
+        axes.set_title(rf"$\mu = {mu:g}$", fontsize=10)
+        axes.set(xlabel=OMEGA, xlim=omega_range, ylim=(0, amplitude_last))
+        axes.xaxis.label.set_size(9.5)
+    fig.axes[0].set_ylabel("half the range of $x$ (dimensionless)")
+    _legend(fig, fig.axes[0])
+    return fig
+
+
+@styled
+def large_orbit(mu, cases, thresholds, omega_range):
+    """Large orbits: amplitude against omega, dict p -> (branches, marks), and the least mu, p -> (omega, mu, ...)."""
+    fig = PageFigure(figsize=(7.4, 4.0))
+    left, right = fig.subplots(1, 2)
+    _response(left, cases)
+    left.set_title(rf"$\mu = {mu:g}$", fontsize=10)
+    left.set(xlabel=OMEGA, ylabel="half the range of $x$ (dimensionless)", xlim=omega_range)
+    for p, (omega, least, *_) in thresholds.items():
+        right.plot(omega, least, **line_of(p))
+    right.set(xlabel=OMEGA, ylabel=r"least $\mu$ (dimensionless)", xlim=omega_range, ylim=(0, 0.4))
+    for axes in (left, right):
+        axes.xaxis.label.set_size(9.5)
+    _legend(fig, right)
+    return fig
+
+
+def _response(axes, cases):
+    for p, (branches, marks) in cases.items():
+        look = line_of(p)
+        for _, omega, value, stable in branches:
+            draw_branch(axes, omega, value, stable, color=look["color"], label=look["label"])
+        draw_marks(axes, marks)
+
+
+def _legend(fig, axes):
+    """Above the panels, each label once, by the first thing drawn under it: of a branch, the thick line."""
+    labels = {}
+    for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+        labels.setdefault(label, handle)
+    fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)

@@ -1,0 +1,1 @@
+"""What pages show besides figures: tables and interactive views."""

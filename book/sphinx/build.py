@@ -1,0 +1,53 @@
+"""Builds the book: `jupyter-book build . -W -n --keep-going`, but with chapters read side by side.
+
+Run from the root of the repository: python book/sphinx/build.py [number of chapters side by side]
+"""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from jupyter_book.sphinx import build_sphinx
+from sphinx.util.console import nocolor
+
+
+def isolate(folder):
+    """Kernels run in the environment's own Python from an empty profile: no personal setting changes a figure."""
+    os.environ |= {"IPYTHONDIR": str(folder), "JUPYTER_PREFER_ENV_PATH": "1"}
+    profile = folder / "profile_default"
+    profile.mkdir(parents=True, exist_ok=True)
+    # The kernel's advice on encrypted transport, once a chapter, would bury what matters.
+    (profile / "ipython_kernel_config.py").write_text("c.IPKernelApp.log_level = 'ERROR'\n")
+
+
+def main(jobs=2):
+    root = Path.cwd()
+    build = root / "_build"
+    isolate(build / "ipython")
+    if not sys.stdout.isatty():
+        nocolor()
+    complete = build / "complete"
+    # Sphinx warns about a page only when it reads it: after a build that failed or was interrupted every page is read
+    # again, else the second attempt would pass. Chapters that ran to their end do not run again: they are in the cache.
+    if not complete.exists():
+        shutil.rmtree(build / "doctrees", ignore_errors=True)
+    complete.unlink(missing_ok=True)
+    result = build_sphinx(
+        root,
+        build / "html",
+        noconfig=True,
+        path_config=root / "_config.yml",
+        confoverrides={"external_toc_path": "_toc.yml", "latex_individualpages": False, "nitpicky": True},
+        doctreedir=build / "doctrees",
+        warningiserror=True,
+        keep_going=True,
+        jobs=jobs,
+    )
+    if result != 0:
+        sys.exit("The book is not built: see the warnings above.")
+    complete.touch()
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

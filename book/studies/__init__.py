@@ -1,0 +1,1 @@
+"""The computations behind the chapters: a chapter's module bears its name."""

@@ -1,0 +1,112 @@
+"""What the chapter on basins computes: pictures, their dependence on the step, dimensions of the boundary, sections.
+
+Sizes are arguments: the book takes what fits its time, `tools/maps_basins.py` the full resolution.
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from duffing import paper
+from duffing.basins.attractors import find_attractors
+from duffing.basins.basins import basins, changed
+from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
+from duffing.basins.contact import first_contact
+from duffing.basins.fates import fate
+from duffing.basins.uncertainty import dimension, uncertain_starts
+from duffing.errors import ConvergenceError
+from duffing.melnikov import critical_amplitude
+
+from ..remember import remembered
+
+FRAME = ((-1.7, 1.7), (-1.5, 1.5))  # x and v of the pictures
+AXIS = ((-1.5, 0.0), (1.5, 0.0))  # the line v = 0 whose crossings with the boundary are counted
+STEPS = 128  # Runge-Kutta steps a period for p = 1
+FRICTION_TIME = {"rtol": 1e-6, "atol": 1e-8}
+SECTION_PERIODS = 120
+
+
+def oscillator(p, ratio=None, mu=None):
+    """The paper's oscillator with exponent p at the forcing mu, or ratio times the critical amplitude."""
+    osc = replace(paper.OSCILLATOR, p=p)
+    return replace(osc, mu=float(ratio * critical_amplitude(osc)) if mu is None else mu)
+
+
+def integrator(p, steps=STEPS):
+    """Options for p: physical time and fixed steps where the damping is smooth in v, friction time elsewhere."""
+    return {"method": "rk4", "steps_per_period": steps} if p == 1 else FRICTION_TIME
+
+
+@remembered
+def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, **sweep):
+    """Basins of size x size starts in FRAME, at ratio times mu_c or at mu; sweep : how, as for `basins`."""
+    osc, options = oscillator(p, ratio, mu), integrator(p, steps)
+    x, v = (np.linspace(*ends, size) for ends in FRAME)
+    # Starts of a coarser grid than by default: a small attractor that they miss is met by the picture's own starts.
+    starts = np.reshape(np.meshgrid(x[:: size // 8], v[:: size // 8]), (2, -1))
+    return basins(osc, x, v, find_attractors(osc, starts, periods=120, **options), periods, **sweep, **options)
+
+
+@remembered
+def step_changes(ratios, steps=(32, 64, 128, 256), size=128):
+    """The part of the labels that change when the step is halved, p = 1: array (len(ratios), len(steps) - 1)."""
+    pictures = [[picture(1.0, ratio, size=size, steps=n) for n in steps] for ratio in ratios]
+    return np.array([[changed(one, other) for one, other in pairwise(row)] for row in pictures])
+
+
+@remembered
+def strips(p, ratio, most=30_000):
+    """The boundary's Crossings with AXIS, by Runge-Kutta steps: a smooth map down to rounding, which the finest strips
+    need. Twice the steps or the periods shift a strip, but not the dimension. Below p = 1/2 in friction time: there
+    the fixed steps invent thin strips, other ones with other steps, at forcings where the boundary is a curve."""
+    rk4 = {"method": "rk4", "steps_per_period": 96 if p == 1 else 300}
+    options = rk4 if p >= 0.5 else {"method": "friction", "rtol": 1e-9, "atol": 1e-11}
+    return crossings(line_of_starts(oscillator(p, ratio), *AXIS, periods=24 if p == 1 else 16, **options), most=most)
+
+
+@remembered
+def line_dimensions(p, ratios, most=30_000):
+    """D from the crossings with AXIS at each ratio mu/mu_c: (values, errors, numbers of crossings), each (n,).
+
+    most : starts that are followed, for all ratios or for each. A few crossings that crowd look like a fractal until
+    the cells are finer than the gaps between them: just below the tangency it takes more starts than above.
+    """
+    most = np.broadcast_to(most, len(ratios)).tolist()
+    found = [strips(p, ratio, number) for ratio, number in zip(ratios, most, strict=True)]
+    values, errors = np.array([boundary_dimension(one) for one in found]).T
+    return values, errors, np.array([one.left.size for one in found])
+
+
+@remembered
+def random_dimensions(p, ratios, starts=2**12, eps=(1e-4, 3e-4, 1e-3, 3e-3, 1e-2), periods=20):
+    """D from random starts in FRAME at each ratio: (values, errors), each (n,); nan where too few are uncertain."""
+    found = []
+    for ratio in ratios:
+        osc = oscillator(p, ratio)
+
+        def label(states, osc=osc):
+            return fate(osc, states, periods, **integrator(p, 96))
+
+        try:
+            found.append(dimension(eps, uncertain_starts(label, FRAME, eps, starts), starts))
+        except ConvergenceError:
+            found.append((np.nan, np.nan))
+    return tuple(np.array(found).T)
+
+
+@remembered
+def contact(p=1.0, low=0.999, high=1.0, halvings=6):
+    """The ratios mu/mu_c (below, above) between which W^U and W^S first meet at any turn."""
+    osc = oscillator(p, 1.0)
+    options = {"method": "rk4", "steps_per_period": 200}
+    return first_contact(osc, low * osc.mu, high * osc.mu, halvings, **options) / osc.mu
+
+
+@remembered
+def section(mu, x, p=paper.P_SMALL, periods=SECTION_PERIODS):
+    """Fates after so many periods of the starts (x, v = 0) at each mu: array (len(x), len(mu))."""
+    x, mu = np.array(x), np.array(mu)
+    states = np.array(np.broadcast_arrays(x[:, None], np.zeros(mu.size)))
+    family = replace(paper.OSCILLATOR, p=p, mu=np.broadcast_to(mu, states.shape[1:]))
+    return fate(family, states, periods, last=16, **integrator(p))

@@ -1,0 +1,51 @@
+"""Whether the unstable manifold of the saddle orbit meets the stable one anywhere, at whatever turn round the wells.
+
+`tangency` compares the two manifolds where each first crosses v = 0. But W^U may pass by W^S there and meet it later.
+It has met it if its points have different fates: W^S is what parts them. One fundamental domain, the piece of W^U that
+the stroboscopic map carries on to the next, stands for the whole branch.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from .. import checks
+from ..errors import ConvergenceError
+from ..manifolds.saddle import saddle_orbit
+from .boundary import crossings, line_of_starts
+
+_LAUNCH = 1e-7  # of the fundamental domain from the saddle orbit, in (x, v)
+_LEAST = 1e-9  # width of the cells, of the fundamental domain
+
+
+def homoclinic_strips(osc, periods=14, most=30_000, **options):
+    """How often the fate changes along a fundamental domain of the right branch of W^U: 0 before W^U and W^S have met.
+
+    osc : a single oscillator, delta < 0 < gamma; periods : after which the fates are read, two of them on the way out
+    most : as for `crossings`; strips thinner than 1e-9 of the domain are not seen
+    options : method and options as for `duffing.flow.integrate`; errors as for `saddle_orbit`
+    """
+    saddle = saddle_orbit(checks.single(osc))
+    ends = (saddle.state + _LAUNCH * stretch * saddle.unstable for stretch in (1.0, saddle.multipliers[0]))
+    return crossings(line_of_starts(osc, *ends, periods, **options), least=_LEAST, most=most).left.size
+
+
+def first_contact(osc, low, high, halvings=8, **options):
+    """The forcings (below, above) between which W^U and W^S first meet: seen to at the second, not at the first.
+
+    osc.mu is not used; low, high : forcings that bracket it; halvings : of the bracket; options as `homoclinic_strips`
+    Raises ConvergenceError where the manifolds meet at low or do not at high.
+    """
+    checks.single(osc)
+    checks.count("halvings", halvings)
+    low, high = checks.number("low", low), checks.number("high", high)
+    for mu, met in ((low, False), (high, True)):
+        if (homoclinic_strips(replace(osc, mu=mu), **options) > 0) != met:
+            raise ConvergenceError(f"mu = {mu}: the manifolds {'do not meet' if met else 'meet'} there: no bracket")
+    for _ in range(halvings):
+        middle = (low + high) / 2
+        if homoclinic_strips(replace(osc, mu=middle), **options):
+            high = middle
+        else:
+            low = middle
+    return np.array([low, high])

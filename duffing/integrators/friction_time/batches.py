@@ -1,0 +1,89 @@
+"""What both front ends of `follow` share: members, tolerances, threads and the names of failures."""
+
+import math
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from ... import checks
+from ...errors import ConvergenceError, DivergedError
+from .block import WIDTH
+from .equations import parameters
+from .scheduler import RESULTS, follow
+from .step_control import DIVERGED, DONE, NO_CROSSING, PAST_UNKNOWN, STUCK, TOO_MANY_STEPS
+
+_MOST = 256  # members of a part at most
+_MOST_P = 1e4  # beyond it steps across |v| = 1, where the damping sets in like a wall, become endless
+_FAILURES = {
+    DIVERGED: (DivergedError, "the solution leaves every bound"),
+    TOO_MANY_STEPS: (ConvergenceError, "more than max_steps steps were needed"),
+    PAST_UNKNOWN: (
+        ConvergenceError,
+        "backward in time the solution stays on the slow branch of a creep, where every past ends: it has none",
+    ),
+    STUCK: (ConvergenceError, "the velocity passes through zero in a creep, where no turning point is distinguished"),
+    NO_CROSSING: (ConvergenceError, "no turning point was found in time"),
+}
+
+
+def members(osc, state, shape):
+    """Parameters (6, N), starts (2, N) and N for a family of the shape."""
+    columns = osc.columns()
+    size = math.prod(shape)
+    if columns.shape[1] != size:
+        columns = np.repeat(columns, size, axis=1)
+    return columns, checks.state(state, (size,) if np.shape(state) == (2, size) else shape), size
+
+
+def tolerances(rtol, atol, max_steps, switch=0.6):
+    """The four numbers that control the steps, checked, in the order that `follow` takes them."""
+    switch = checks.positive("switch", switch)
+    if switch > 0.6:
+        raise ValueError(f"switch = {switch}: must be a number in (0, 0.6]")
+    return checks.positive("rtol", rtol), checks.positive("atol", atol), checks.count("max_steps", max_steps), switch
+
+
+def fly(columns, states, times, component, beyond, tangents, control, threads):
+    """Results of `follow` for all members, (9, n - 1, N), and the number of force evaluations (N,).
+
+    columns (6, N), states (2, N), times (N, n); component, beyond, tangents, control : as for `follow`
+    threads : at most so many at once (None: the processors). Raises the named error of the first member that fails.
+    """
+    alpha, p = columns[:2]
+    least = np.finfo(float).eps / control[0]  # w = |v|^p holds v to a relative eps / p
+    allowed = (alpha == 0) | ((p >= least) & (p <= _MOST_P))
+    if not np.all(allowed):
+        bad = p[allowed.argmin()]
+        raise ValueError(f"p = {bad}: must be from {least:.1e} (for rtol = {control[0]}) to {_MOST_P:g}")
+    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    size, intervals = times.shape[0], times.shape[1] - 1
+    rows, starts = parameters(columns), np.ascontiguousarray(states.T)
+    results = np.zeros((size, intervals, len(RESULTS)))
+    status, evaluations = np.full(size, DONE), np.zeros(size, dtype=np.int64)
+
+    def run(part):
+        out = results[part], status[part], evaluations[part]
+        follow(rows[part], starts[part], times[part], component, beyond, tangents, control, *out)
+
+    # Parts long enough that lanes seldom idle at their ends, short enough to balance and to interrupt.
+    step = min(max(-(-size // (4 * threads)), min(4 * WIDTH, -(-size // threads))), _MOST) if threads > 1 else _MOST
+    parts = [slice(i, i + step) for i in range(0, size, step)] if intervals > 0 else []
+    if threads == 1 or len(parts) < 2:
+        for part in parts:
+            run(part)
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(run, parts))
+    _raise_failures(status, columns)
+    return results.transpose(2, 1, 0), evaluations
+
+
+def _raise_failures(status, columns):
+    """The named error of the first member that failed."""
+    failed = np.flatnonzero(status != DONE)
+    if failed.size:
+        kind, reason = _FAILURES[status[failed[0]]]
+        names = ("alpha", "p", "mu", "omega", "delta", "gamma")
+        member = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, failed[0]], strict=True))
+        raise kind(f"{failed.size} of {status.size} members fail; the first, {member}: {reason}")

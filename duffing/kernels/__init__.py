@@ -1,1 +1,0 @@
-"""What is compiled inside the integrators `rk4` and `friction`: lanes, powers, steps, landings, creeps."""

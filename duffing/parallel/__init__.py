@@ -1,1 +1,0 @@
-"""What `sweep` stands on: workers, checkpoints, progress, and what a task costs."""

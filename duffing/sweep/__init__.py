@@ -1,0 +1,1 @@
+"""Families over cores or a cluster: blocks, executors, progress, checkpoints."""

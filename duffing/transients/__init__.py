@@ -1,0 +1,1 @@
+"""Transient chaos: lifetimes, survival and the crisis that ends or begins it."""
