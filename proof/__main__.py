@@ -51,8 +51,8 @@ def find_first(p):
             records = sorted([*records, *found], key=lambda record: float(exact("mu", record[0])))
             write(f"first{p}", records)
             bar.update(len(found))
-    check_first(certificate, records)
-    return f"p = {p}: no primary intersection for 0 < mu <= {decimal(exact('low', certificate['low']), 16)}"
+    top, _ = check_first(certificate, records)
+    return f"p = {p}: no primary intersection for 0 < mu <= {decimal(top, 16)}"
 
 
 def main(arguments):

@@ -90,26 +90,33 @@ def prove_first(certificate, each=map, known=()):
 
 def covered(pair, have):
     """Whether intervals that are had already reach from the pair's low end to its high one."""
-    low, high = pair
-    while low < high:
-        after = [Fraction(b) for a, b in have if Fraction(a) == low]
-        if not after:
-            return False
-        low = after[0]
-    return True
+    return reach(pair[0], have) >= pair[1]
+
+
+def reach(low, have):
+    """How far intervals (low, high) that join one another go up from a forcing amplitude."""
+    after = {Fraction(a): Fraction(b) for a, b in have}
+    while low in after:
+        low = after[low]
+    return low
 
 
 def check_first(certificate, records, sample=20, seed=0):
-    """Assert that the intervals cover (0, low] and, in one of them, that pieces cover and a sample of pairs is apart.
+    """Assert that the intervals join from 0 on and, in one of them, that pieces cover and a sample of pairs is apart.
 
     sample : pieces of each manifold that are flown; None: all of them, in all intervals, which is the whole proof.
-    Raises NotProved. Returns how many pairs of pieces shared a phase.
+    Raises NotProved. Returns how far the intervals reach, at most the `low` of the certificate, and how many pairs of
+    pieces shared a phase.
     """
-    osc, low = oscillator(certificate), Fraction(certificate["low"])
-    if not covered((Fraction(0), low), {(record[0], record[1]) for record in records}):
-        raise NotProved(f"the intervals do not cover (0, {float(low)}]")
-    chance = Random(seed)
-    return sum(_apart(osc, one, sample, chance) for one in (records if sample is None else [chance.choice(records)]))
+    osc, low, chance = oscillator(certificate), Fraction(certificate["low"]), Random(seed)
+    top = reach(Fraction(0), [record[:2] for record in records])
+    if top < max(Fraction(record[1]) for record in records):
+        raise NotProved(f"the intervals leave a hole above {float(top)}")
+    if top > low:
+        raise NotProved(f"the intervals go beyond {float(low)}")
+    return top, sum(
+        _apart(osc, one, sample, chance) for one in (records if sample is None else [chance.choice(records)])
+    )
 
 
 def _apart(osc, record, sample, chance):

@@ -67,8 +67,14 @@ def test_the_saddle_orbit_of_the_certificate_is_that_of_the_package(p):
     assert stretch**2 == pytest.approx(orbit.multipliers[0], rel=1e-3)
 
 
-def test_no_smaller_forcing_amplitude_has_a_primary_intersection():
-    assert check_first(load("p1"), load("first1")) > 0
+def test_no_forcing_amplitude_up_to_the_last_interval_has_a_primary_intersection():
+    top, pairs = check_first(load("p1"), load("first1"))
+    assert 0.7 * float(load_low()) < top <= load_low()
+    assert pairs > 0
+
+
+def load_low():
+    return Fraction(load("p1")["low"])
 
 
 # Certificates that are wrong must be refused, for the reason that they are wrong for.
@@ -137,7 +143,7 @@ def test_a_wider_pair_of_pieces_does_not_prove_that_the_intersection_is_transver
 
 def test_intervals_of_the_forcing_that_leave_one_out_are_refused():
     records = load("first1")
-    with pytest.raises(NotProved, match="do not cover"):
+    with pytest.raises(NotProved, match="leave a hole"):
         check_first(load("p1"), records[:3] + records[4:])
 
 
