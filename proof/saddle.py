@@ -60,18 +60,18 @@ def saddle(osc, mu, spread=NOTHING, parts=8):
     _, slope, by_mu = half_map(osc, z, mu, (held[0, 0], held[1, 0], 0), drift)
     slope = drift + (ONE - slope).inv() * (by_mu - drift)
     if spread.rad() > 0:
-        slope = _slope(osc, mu, spread, radius, parts)
+        slope = _slope(osc, mu, spread, radius, parts if spread.rad() > 1e-6 else 1, z)
     frame, values = _eigenframe(half_map(osc, z, mu, (0, 0, 0), drift)[1].mid())
     return Saddle(mu, spread, z + held, slope, radius, frame, values)
 
 
-def _slope(osc, mu, spread, radius, parts):
+def _slope(osc, mu, spread, radius, parts, near):
     """dz/dmu for every forcing amplitude of mu + spread, proved part by part."""
     slopes = []
     for k in range(parts):
         part = arb((mu + spread.rad() * (2 * k + 1 - parts) / parts).mid(), 0)
         share = around((spread.rad() / parts * 1.01).upper())
-        z, inverse, drift = _newton(osc, part)
+        z, inverse, drift = _newton(osc, part, near, 4)
         held = _fixed(osc, z, part, share, drift, inverse, radius)
         _, slope, by_mu = half_map(osc, z, part, (held[0, 0], held[1, 0], share), drift)
         slopes.append(drift + (ONE - slope).inv() * (by_mu - drift))
@@ -81,10 +81,11 @@ def _slope(osc, mu, spread, radius, parts):
     return together
 
 
-def _newton(osc, mu):
+def _newton(osc, mu, z=None, rounds=8):
     """(z, (1 - DQ)^-1, dz/dmu) at the fixed point, nearly: points."""
-    nothing, z = arb_mat(2, 1), arb_mat(2, 1)
-    for _ in range(8):
+    nothing = arb_mat(2, 1)
+    z = nothing if z is None else z
+    for _ in range(rounds):
         image, slope, by_mu = half_map(osc, z, mu, (0, 0, 0), nothing)
         inverse = (ONE - slope).inv().mid()
         z = (z - inverse * (z - image)).mid()
