@@ -28,7 +28,6 @@ from proof.theorems import FINE, SHARE, transverse
 START = (arb(0.45), arb(0.1), arb(0.1))  # x, v, mu
 STEPS = ((Fraction(1, 10**5), 0), (-Fraction(1, 10**5), 0), (0, 1e-4), (0, -1e-4))
 EACH_P = pytest.mark.parametrize("p", [1, 3])
-PROVED = pytest.mark.parametrize("p", [1])  # those with a certificate
 OSC = Oscillator()
 
 
@@ -49,7 +48,7 @@ def right_side(p, mu):
 # The theorems.
 
 
-@PROVED
+@EACH_P
 def test_the_certificate_of_each_exponent_is_checked(p):
     low, high, least = check(load(f"p{p}"))
     assert 0 < high - low <= 1e-8 * duffing.critical_amplitude(model(p, 0))
@@ -57,7 +56,7 @@ def test_the_certificate_of_each_exponent_is_checked(p):
     assert least > 0
 
 
-@PROVED
+@EACH_P
 def test_the_saddle_orbit_of_the_certificate_is_that_of_the_package(p):
     certificate = load(f"p{p}")
     orbit = duffing.saddle_orbit(model(p, Fraction(certificate["high"])))
