@@ -34,7 +34,8 @@ def crossing(t, s, rows):
     labels = ("$x$", "$v$", r"$Y = \mathrm{sign}(v)\,|v|^p$")
     for row, (name, values) in enumerate(zip(labels, rows, strict=True)):
         for axes, along, colour, dash in zip(panels[row], (t, s), (BLUE, VERMILION), ("--", "-"), strict=True):
-            axes.axhline(0, color=GREY, linewidth=0.8)
+            if row:  # x stays on one side
+                axes.axhline(0, color=GREY, linewidth=0.8)
             axes.plot(along, values, color=colour, linestyle=dash)
         panels[row, 0].set_ylabel(name)
     for axes, along, name in zip(panels[-1], (t, s), ("time $t$", "friction time $s$"), strict=True):

@@ -28,7 +28,7 @@ def distance(loop, unstable, stable, ends, times, energies):
         energy.plot(t, values, color=colour, linestyle=dash)
     low, high = energies[1][0], energies[0][-1]
     energy.annotate("", (0, low), (0, high), arrowprops=arrow)
-    energy.text(0.25, (low + high) / 2, r"$\mathrm{M}(t_0)$", va="center")
+    energy.text(-0.3, 0.3 * low + 0.1 * high, r"$\mathrm{M}(t_0)$", ha="right", va="center")
     energy.axhline(0, color=GREY, linewidth=0.8)
     energy.set(xlabel="time $t - t_0$ (dimensionless)", ylabel="energy $H^0$ (dimensionless)")
     fig.legend(*plane.get_legend_handles_labels(), loc="outside upper center", ncols=4)
