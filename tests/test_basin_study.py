@@ -11,7 +11,7 @@ from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_ta
 from duffing.basins.basins import KINDS
 from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.basins.contact import first_contact, homoclinic_strips
-from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT
+from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT, classify
 
 RK4 = {"method": "rk4", "steps_per_period": 200}
 
@@ -123,5 +123,5 @@ def test_the_section_shows_wells_chaos_and_the_large_orbit_at_small_p():
     np.testing.assert_array_equal(fates[:2, 0], [LEFT, RIGHT])
     assert IRREGULAR in fates[:, 1]
     osc = replace(basin_study.oscillator(0.1, mu=0.27), p=0.1)
-    large = basin_study.fate(osc, (1.3, 1.38), 40, last=16, **STATISTICS)
+    large = classify(osc, (1.3, 1.38), 40, last=16, **STATISTICS)
     assert large == LARGE

@@ -70,7 +70,7 @@ CALLS = {
     "transients.crisis.crisis": {
         "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "upper": 0.26, "outer": OUTER, "steps": 1, "points": 200
     },
-    "basins.fates.fate": {"osc": OSC, "states": START, "periods": 6, "last": 4},
+    "basins.fates.classify": {"osc": OSC, "states": START, "periods": 6, "last": 4},
     "transients.lifetimes.lifetimes": {
         "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
         "tangents": 0,
@@ -86,9 +86,10 @@ CALLS = {
 }  # an entry a line, or two  # fmt: skip
 # Those that take what another one gave, or what a caller inside the package has checked.
 WITHIN = {
-    "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
-    " switched",
-    "basins": "boundary_dimension capture changed contracted_form look ordered neighbourhood points_of read trap",
+    "orbits": "bifurcations bifurcation_curves correct curves follow_branches marks at_exponent multipliers_of"
+    " orbits_at side_by_side switch_branches",
+    "basins": "boundary_dimension capture changed classify_path contracted_form first_capture ordered neighbourhood"
+    " points_of trap",
     "transients": "both_wells edge_distance returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
@@ -192,7 +193,7 @@ ANY_OSCILLATOR = (
     "manifolds.correction.tangency_correction",
     "orbits.periodic.periodic_orbit", "orbits.periodic.periodic_orbits", "orbits.periodic.path",
     "orbits.diagram.bifurcation_diagram", "basins.attractors.find_attractors",
-    "basins.contact.homoclinic_strips", "basins.fates.fate", "transients.lifetimes.lifetimes",
+    "basins.contact.homoclinic_strips", "basins.fates.classify", "transients.lifetimes.lifetimes",
 )  # names in rows, not a column  # fmt: skip
 
 

@@ -28,7 +28,7 @@ def test_chaos_without_two_chaotic_runs_says_so():
 
 def test_exponents_of_a_periodic_orbit_are_those_of_a_long_average_and_obey_the_sum_rule():
     mu = (0.2, 0.29)
-    orbit = small_p.periodic_orbit(mu)
+    orbit = small_p.attracting_orbits(mu)
     average = lyapunov_spectrum(replace(paper.OSCILLATOR, mu=np.array(mu)), paper.START, 400, 200).exponents
     np.testing.assert_allclose(orbit.exponents, average, atol=2e-3)
     assert np.all(orbit.exponents[0] >= orbit.exponents[1])
@@ -36,7 +36,7 @@ def test_exponents_of_a_periodic_orbit_are_those_of_a_long_average_and_obey_the_
 
 
 def test_an_annihilated_direction_of_a_periodic_orbit_has_the_exponent_minus_infinity():
-    orbit = small_p.periodic_orbit((0.05,))
+    orbit = small_p.attracting_orbits((0.05,))
     assert orbit.friction_time[0] == np.inf
     assert orbit.exponents[1, 0] == -np.inf
     assert np.isfinite(orbit.exponents[0, 0])

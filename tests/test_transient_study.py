@@ -30,10 +30,10 @@ def test_a_multiplier_is_one_at_the_fold_and_the_orbits_are_gone_above_it():
 
 
 def test_the_place_of_the_fold_is_passed_in_a_time_of_the_power_minus_one_half():
-    periods = transient_study.ghost((1.6e-4, 4e-5, 1e-5))
+    periods = transient_study.passage_time((1.6e-4, 4e-5, 1e-5))
     np.testing.assert_allclose(periods[1:] / periods[:-1], 2.0, rtol=0.12)  # whole periods, and the way there
     with pytest.raises(ConvergenceError, match=r"^longest = 30: not long enough"):
-        transient_study.ghost((1e-5,), longest=30)
+        transient_study.passage_time((1e-5,), longest=30)
 
 
 def test_rates_of_both_destinations_add_up_to_the_whole():
@@ -100,7 +100,7 @@ def test_large_are_those_round_both_wells_that_repeat_themselves_each_period():
     """At this forcing all starts end round both wells, most on the large orbit and some on one of two periods."""
     _, settled, large = transient_study.sample(0.27, 2.0, 8, 5, periods=400)
     family = replace(paper.OSCILLATOR, p=2.0, mu=np.full(40, 0.27))
-    points = poincare_section(family, transient_study.between(8, 5), 2, transient=600, **STEP)
+    points = poincare_section(family, transient_study.starts_between_wells(8, 5), 2, transient=600, **STEP)
     repeats = np.hypot(*(points[:, 1] - points[:, 0])) < 1e-6
     assert settled.all() and 0 < repeats.sum() < 40
     np.testing.assert_array_equal(large, repeats)
@@ -108,7 +108,7 @@ def test_large_are_those_round_both_wells_that_repeat_themselves_each_period():
 
 def test_a_passage_ends_with_the_first_period_after_which_the_orbit_is_away():
     distance = (1e-3, 3e-4)
-    periods = transient_study.ghost(distance)
+    periods = transient_study.passage_time(distance)
     mu, state = transient_study.folds((0.1,))
     for number, above in zip(periods.tolist(), distance, strict=True):
         osc = replace(paper.OSCILLATOR, mu=mu[0] + above)
@@ -118,7 +118,7 @@ def test_a_passage_ends_with_the_first_period_after_which_the_orbit_is_away():
 
 
 def test_starts_between_the_wells_fill_their_box():
-    starts = transient_study.between(5, 3)
+    starts = transient_study.starts_between_wells(5, 3)
     assert starts.shape == (2, 15)
     np.testing.assert_array_equal(starts.min(axis=1), [-1.0, -0.4])
     np.testing.assert_array_equal(starts.max(axis=1), [1.0, 0.4])

@@ -13,7 +13,7 @@ from duffing.basins.attractors import find_attractors
 from duffing.basins.basins import basins, changed
 from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.basins.contact import first_contact
-from duffing.basins.fates import fate
+from duffing.basins.fates import classify
 from duffing.basins.uncertainty import dimension, uncertain_starts
 from duffing.errors import ConvergenceError
 from duffing.melnikov import critical_amplitude
@@ -81,7 +81,7 @@ def random_dimensions(p, ratios, starts=2**12, eps=(1e-4, 3e-4, 1e-3, 3e-3, 1e-2
         osc = oscillator(p, ratio)
 
         def label(states, osc=osc):
-            return fate(osc, states, periods, **integrator(p, steps_per_period=96))
+            return classify(osc, states, periods, **integrator(p, steps_per_period=96))
 
         try:
             found.append(dimension(eps, uncertain_starts(label, FRAME, eps, starts), starts))
@@ -104,4 +104,4 @@ def section(mu, x, p=paper.P_SMALL, periods=SECTION_PERIODS):
     x, mu = np.array(x), np.array(mu)
     states = np.array(np.broadcast_arrays(x[:, None], np.zeros(mu.size)))
     family = replace(paper.OSCILLATOR, p=p, mu=np.broadcast_to(mu, states.shape[1:]))
-    return fate(family, states, periods, last=16, **integrator(p, steps_per_period=STEPS))
+    return classify(family, states, periods, last=16, **integrator(p, steps_per_period=STEPS))

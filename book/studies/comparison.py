@@ -14,7 +14,7 @@ from duffing.melnikov import critical_amplitude
 from ..remember import remembered
 from . import small_p
 from .accuracy import integrator
-from .transients import between
+from .transients import starts_between_wells
 from .wandering import Wandering, mean_ratio, wandering
 
 P = (0.1, 0.5, 1.0, 2.0)
@@ -36,11 +36,11 @@ GRID = {0.1: (8, 5), 0.5: (8, 6), 1.0: (32, 16), 2.0: (16, 10)}  # columns and r
 def compared(p, mu=None, columns=None, rows=None, periods=240, osc=paper.OSCILLATOR, **sweep):
     """The Wandering at the exponent p for a tuple of forcings (default MU[p]): mu (n,), mu / mu_c (n,), Wandering.
 
-    columns, rows : of the grid of starts `between` the wells (default GRID[p]); sweep : how, as for `lifetimes`
+    columns, rows : of the grid of `starts_between_wells` (default GRID[p]); sweep : how, as for `lifetimes`
     """
     mu = np.array(MU[p] if mu is None else mu)
     family = replace(osc, p=p, mu=mu)
-    starts = between(columns or GRID[p][0], rows or GRID[p][1])
+    starts = starts_between_wells(columns or GRID[p][0], rows or GRID[p][1])
     ratio = mu / critical_amplitude(replace(osc, p=p))
     return mu, ratio, Wandering(*wandering(family, starts, periods, **sweep, **integrator(p)))
 

@@ -85,7 +85,7 @@ def step_study(mu, factors=(1, 10, 50), distances=(1e-4, 1e-8), osc=paper.OSCILL
     return table
 
 
-class PeriodicOrbit(NamedTuple):
+class AttractingOrbits(NamedTuple):
     """Attracting orbits of one forcing period: state (2, n) at phase 0; exponents (2, n), the logarithms of the moduli
     of the multipliers over the period, largest first; friction_time (n,) spent in a period; gap (n,), how far the
     state is from its own image."""
@@ -97,7 +97,7 @@ class PeriodicOrbit(NamedTuple):
 
 
 @remembered
-def periodic_orbit(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
+def attracting_orbits(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
     """The orbits that attract the paper's start at the forcings mu (a tuple), and their Floquet exponents."""
     family = replace(osc, p=p, mu=np.array(mu))
     t = family.period * np.array([0.0, settle, settle + 1.0])
@@ -108,7 +108,7 @@ def periodic_orbit(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
     largest = np.maximum(np.log(np.max(np.abs(multipliers), axis=1)), total / 2)
     exponents = np.array([largest, total - largest]) / family.period
     gap = np.max(np.abs(orbit.states[:, 2] - orbit.states[:, 1]), axis=0)
-    return PeriodicOrbit(orbit.states[:, 2], exponents, orbit.friction_time[-1], gap)
+    return AttractingOrbits(orbit.states[:, 2], exponents, orbit.friction_time[-1], gap)
 
 
 @remembered

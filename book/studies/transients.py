@@ -23,7 +23,7 @@ P_CRISIS, BELOW, ABOVE = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0), (0.270, 0.259, 0.2
 FAR = 0.22
 
 
-def between(columns, rows):
+def starts_between_wells(columns, rows):
     """A grid of starts on and around the hump: (2, columns * rows) of x in [-1, 1] and v in [-0.4, 0.4].
 
     The basin of the large orbit, as it is before the crisis, is farther out: its orbits are not counted as wandering
@@ -34,7 +34,7 @@ def between(columns, rows):
 
 
 def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSCILLATOR, **sweep):
-    """Lifetimes of the starts `between` the wells at one forcing: time, settled, and whether in the large orbit of one
+    """Lifetimes of the `starts_between_wells` at one forcing: time, settled, and whether in the large orbit of one
     forcing period, each (columns * rows,). sweep : how, as for `lifetimes`."""
     return _sample(mu, p, columns, rows, periods, osc, **sweep)
 
@@ -42,7 +42,7 @@ def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSC
 @remembered
 def _sample(mu, p, columns, rows, periods, osc, **sweep):
     # Called in one way only, so that `sample` and `escape` share what is remembered.
-    state = between(columns, rows)
+    state = starts_between_wells(columns, rows)
     family = replace(osc, p=p, mu=np.full(state.shape[1], mu))
     lived = lifetimes(family, state, periods, **sweep, **integrator(p))
     return lived.time, lived.settled, both_wells(family, lived, **integrator(p)) & (lived.multiple == 1)
@@ -117,7 +117,7 @@ def edge(mu, p=paper.P_SMALL, points=600, osc=paper.OSCILLATOR, **options):
 
 
 @remembered
-def ghost(distance, p=paper.P_SMALL, longest=2000, osc=paper.OSCILLATOR):
+def passage_time(distance, p=paper.P_SMALL, longest=2000, osc=paper.OSCILLATOR):
     """Periods (n,) that an orbit needs to leave the place of the fold by 0.1, at the distances in mu above it."""
     mu, state = folds((p,))
     family = replace(osc, p=p, mu=mu[0] + np.array(distance))

@@ -51,3 +51,13 @@ def compiled(function=None, **options):
         return numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
     finally:
         numba.config.CACHE_DIR = before
+
+
+def inlined(function):
+    """A function that becomes part of each compiled function that calls it; it cannot be called from Python."""
+    return numba.njit(forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+
+
+def inner(function):
+    """A function that compiled functions call; it cannot be called from Python, and has no place in the cache."""
+    return numba.njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)

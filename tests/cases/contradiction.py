@@ -50,7 +50,7 @@ def _edge():
 
 def _passage():
     distance = (1e-3, 3e-4, 1e-4)
-    return {"distance": np.array(distance), "periods": transient_study.ghost(distance, p=1.0)}
+    return {"distance": np.array(distance), "periods": transient_study.passage_time(distance, p=1.0)}
 
 
 def _order():

@@ -1,7 +1,7 @@
 """The accurate integrator: every p > 0, forward and backward, with both tangent vectors, creep included.
 
-Front end of `follow`, which steps in friction time (`friction_time`) with an embedded pair of order eight
-(`dop853`) and in creeps with an implicit method of order nine (`creep`).
+Front end of `run_lanes`, which steps in friction time (`equations`) with an embedded pair of order eight
+(`dop853`) and in creeps with an implicit method of order nine (`radau`).
 """
 
 import math
@@ -10,8 +10,8 @@ import numpy as np
 
 from ... import checks
 from ...errors import DivergedError
-from ..solution import Orbit
-from .batches import fly, members, tolerances
+from ..solution import Solution
+from .batches import integrate_members, members, tolerances
 from .block import T
 from .scheduler import ANGLE, ANNIHILATIONS, AT_S, AT_V, AT_X, R11, R12, R22
 
@@ -32,7 +32,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
 
     Returns
     -------
-    Orbit : with friction_time (n - 1, N), annihilations (n - 1, N), evaluations (N,) of the force. Where a creep
+    Solution : with friction_time (n - 1, N), annihilations (n - 1, N), evaluations (N,) of the force. Where a creep
         through zero force annihilates a tangent direction (p <= 1/2), friction_time is infinite, growth[1] = -inf.
         Backward, friction_time is negative.
 
@@ -49,9 +49,9 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
     control = tolerances(rtol, atol, max_steps, switch)
 
-    results, evaluations = fly(columns, state, t, T, -math.inf, tangents, control, threads)
+    results, evaluations = integrate_members(columns, state, t, T, -math.inf, tangents, control, threads)
     states = np.concatenate([state[:, None], results[[AT_X, AT_V]]], axis=1)
-    return Orbit(
+    return Solution(
         states,
         results[[R11, R22]][:tangents],
         _propagators(results) if tangents == 2 else None,

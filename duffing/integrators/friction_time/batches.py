@@ -1,4 +1,4 @@
-"""What both front ends of `follow` share: members, tolerances, threads and the names of failures."""
+"""What both front ends of `run_lanes` share: members, tolerances, threads and the names of failures."""
 
 import math
 import os
@@ -10,7 +10,7 @@ from ... import checks
 from ...errors import ConvergenceError, DivergedError
 from .block import WIDTH
 from .equations import parameters
-from .scheduler import RESULTS, follow
+from .scheduler import RESULTS, run_lanes
 from .step_control import DIVERGED, DONE, NO_CROSSING, PAST_UNKNOWN, STUCK, TOO_MANY_STEPS
 
 _MOST = 256  # members of a part at most
@@ -37,17 +37,17 @@ def members(osc, state, shape):
 
 
 def tolerances(rtol, atol, max_steps, switch=0.6):
-    """The four numbers that control the steps, checked, in the order that `follow` takes them."""
+    """The four numbers that control the steps, checked, in the order that `run_lanes` takes them."""
     switch = checks.positive("switch", switch)
     if switch > 0.6:
         raise ValueError(f"switch = {switch}: must be a number in (0, 0.6]")
     return checks.positive("rtol", rtol), checks.positive("atol", atol), checks.count("max_steps", max_steps), switch
 
 
-def fly(columns, states, times, component, beyond, tangents, control, threads):
-    """Results of `follow` for all members, (9, n - 1, N), and the number of force evaluations (N,).
+def integrate_members(columns, states, times, event, beyond, tangents, control, threads):
+    """Results of `run_lanes` for all members, (9, n - 1, N), and the number of force evaluations (N,).
 
-    columns (6, N), states (2, N), times (N, n); component, beyond, tangents, control : as for `follow`
+    columns (6, N), states (2, N), times (N, n); event, beyond, tangents, control : as for `run_lanes`
     threads : at most so many at once (None: the processors). Raises the named error of the first member that fails.
     """
     alpha, p = columns[:2]
@@ -58,13 +58,14 @@ def fly(columns, states, times, component, beyond, tangents, control, threads):
         raise ValueError(f"p = {bad}: must be from {least:.1e} (for rtol = {control[0]}) to {_MOST_P:g}")
     threads = os.cpu_count() if threads is None else checks.count("threads", threads)
     size, intervals = times.shape[0], times.shape[1] - 1
-    rows, starts = parameters(columns), np.ascontiguousarray(states.T)
+    # One layout in memory, for which the kernel is compiled once.
+    rows, starts, times = parameters(columns), np.ascontiguousarray(states.T), np.ascontiguousarray(times)
     results = np.zeros((size, intervals, len(RESULTS)))
     status, evaluations = np.full(size, DONE), np.zeros(size, dtype=np.int64)
 
     def run(part):
         out = results[part], status[part], evaluations[part]
-        follow(rows[part], starts[part], times[part], component, beyond, tangents, control, *out)
+        run_lanes(rows[part], starts[part], times[part], event, beyond, tangents, control, *out)
 
     # Parts long enough that lanes seldom idle at their ends, short enough to balance and to interrupt.
     step = min(max(-(-size // (4 * threads)), min(4 * WIDTH, -(-size // threads))), _MOST) if threads > 1 else _MOST

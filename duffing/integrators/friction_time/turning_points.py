@@ -7,7 +7,7 @@ import numpy as np
 
 from ... import checks
 from ...oscillator import Duffing
-from .batches import fly, members, tolerances
+from .batches import integrate_members, members, tolerances
 from .block import W
 from .scheduler import ANGLE, AT_T, AT_X, R11, R12, R22
 
@@ -57,7 +57,7 @@ def to_turning_point(
     longest = np.broadcast_to(100 * np.pi / columns[3] if within is None else checks.positive("within", within), size)
 
     times = np.stack([t0, t0 + direction * longest], axis=1)
-    results, _ = fly(columns, state, times, W, float(beyond), 2 * bool(derivatives), control, threads)
+    results, _ = integrate_members(columns, state, times, W, float(beyond), 2 * bool(derivatives), control, threads)
     last = results[:, 0]
     t, x = t0 + last[AT_T], last[AT_X]
     if not derivatives:
