@@ -33,7 +33,7 @@ def test_the_cells_of_a_solution_run_and_their_assertions_hold(page, monkeypatch
     monkeypatch.chdir(CHAPTERS)  # where the book runs them
     namespace = {"__name__": "solution"}
     for source in cells(page):
-        exec(compile(source, f"solutions/{page}", "exec"), namespace)  # noqa: S102 - the book's own cells
+        exec(compile(source, f"solutions/{page}", "exec"), namespace)
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -46,9 +46,7 @@ def test_every_exercise_of_a_chapter_has_a_solution_and_a_grade_and_the_chapter_
     assert chapter in PAGES
     text = (CHAPTERS / f"{chapter}.md").read_text(encoding="utf-8")
     assert f"](solutions/{chapter}.md)" in text
-    solved = re.findall(
-        r"^## (\d+)\. ", (SOLUTIONS / f"{chapter}.md").read_text(encoding="utf-8"), flags=re.MULTILINE
-    )
+    solved = re.findall(r"^## (\d+)\. ", (SOLUTIONS / f"{chapter}.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
     assert exercises(chapter) == solved != []
     assert len(re.findall(r"^\d+\. \((?:\\\*){1,3}\) ", text, flags=re.MULTILINE)) == len(solved)
 

@@ -45,7 +45,7 @@ def crossing(t, s, rows):
 
 @styled
 def creep(periods, x, damping, force):
-    """A creep against time in forcing periods: x above; below the damping force Y and the force F / alpha, (n,) each."""
+    """A creep against time in periods, (n,) each: x above; below the damping force Y and the force F / alpha."""
     fig = PageFigure(figsize=(7.2, 4.2))
     above, below = fig.subplots(2, 1, sharex=True)
     above.plot(periods, x, color=VERMILION)

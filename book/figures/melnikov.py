@@ -5,7 +5,7 @@ from .style import BLACK, GREY, STABLE, UNSTABLE, PageFigure, styled
 
 @styled
 def distance(loop, unstable, stable, ends, times, energies):
-    """Left: the loop and the curves of W^U and W^S in the plane, (2, n) each; right: the energy along one orbit on each.
+    """Left: loop and curves of W^U and W^S in the plane, (2, n) each; right: the energy along one orbit on each.
 
     ends : the points (2, 2) at which the curves meet the section, that of W^U first
     times, energies : pairs (n,), (m,): before the section on W^U, after it on W^S; the section is at time zero

@@ -51,7 +51,9 @@ def ratios(names, medians):
 
 @styled
 def cost_growth(series):
-    """How cost grows, one panel a series: dict (xlabel, "log" or "linear", the scale of x) -> dict kernel -> (values, costs)."""
+    """How cost grows, one panel a series: dict (xlabel, scale of x) -> dict kernel -> (values, costs).
+
+    The scale is "log" or "linear"."""
     fig = PageFigure(figsize=(6.8, 5.0))
     panels = fig.subplots(2, -(-len(series) // 2))
     for axes, ((xlabel, scale), curves) in zip(panels.flat, series.items(), strict=True):

@@ -1,4 +1,4 @@
-"""The cast of orbits: the branches at p = 0.1 and p = 1 that the page on notation draws, and where their letters stand."""
+"""The cast of orbits: the branches that the page on notation draws, at p = 0.1 and 1, and where their letters are."""
 
 import numpy as np
 

@@ -96,13 +96,11 @@ def _whole_line_sum(osc, t0, digits, damping):
 
 
 # p, omega, delta, gamma of the problems at which the chapter compares the closed form with the sums, as decimal text.
-PROBLEMS = tuple(
-    (p, *rest) for p in ("0.1", "0.5", "1", "3") for rest in (("0.2", "-1", "1"), ("4", "-1.7", "0.6"))
-)
+PROBLEMS = tuple((p, *rest) for p in ("0.1", "0.5", "1", "3") for rest in (("0.2", "-1", "1"), ("4", "-1.7", "0.6")))
 
 
 def agreeing_digits(problems, alpha="0.1", mu="0.3", t0="0.7", digits=50):
-    """To how many digits the closed form of M(t0) and the sums agree over the problems (p, omega, delta, gamma): int."""
+    """Digits to which the closed form of M(t0) and the sums agree over the problems (p, omega, delta, gamma): int."""
     worst = mpmath.mpf(0)
     with mpmath.workdps(digits + 15):
         t0 = mpmath.mpf(t0)

@@ -1,4 +1,4 @@
-"""Why M measures the distance of the manifolds, computed: a section through both, and the energy along an orbit on each."""
+"""Why M measures the distance of the manifolds: a section through both, and the energy along an orbit on each."""
 
 from typing import NamedTuple
 
