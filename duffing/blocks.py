@@ -4,15 +4,17 @@ A member's numbers do not depend on its company, so neither do they on the block
 are the work of `sweep`, which is imported when it is called for.
 """
 
-import os
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from . import checks
 from .flow import METHODS, POLICIES
+from .integrators import processors
 from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better
+WAVE = 4096  # blocks handed to the threads at a time
 # Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
 # enough that an interrupted run, whose blocks under way come to their end, is over within a second (if it is not asked
 # for so many thousand periods that the fewest members take longer).
@@ -70,14 +72,15 @@ def over_blocks(
     """
     options = dict(options)
     threads = options.pop("threads", None)
-    here = os.cpu_count() if threads is None else checks.count("threads", threads)
+    here = processors.available() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
     lenient = checks.choice("on_failure", on_failure, POLICIES) == "nan"
     if executor is None and progress is None and checkpoint is None and not lenient:
-        # The integrators have threads of their own: pieces long enough to keep them busy, and a family that dwindles in
-        # one. It all runs in the caller's thread, where an interrupt arrives at once.
-        piece = state.shape[1] if dwindling else 2 * here * block
-        return _here(function, checks.model(osc).columns(), state, {**options, "threads": here}, piece)
+        columns = checks.model(osc).columns()
+        if dwindling or state.shape[1] <= 2 * here * block:
+            # Little work is left whole to the integrator, which has threads of its own, in the caller's thread.
+            return _in_threads(function, columns, state, {**options, "threads": here}, state.shape[1], 1)
+        return _in_threads(function, columns, state, {**options, "threads": 1}, block, here)
     from .sweep.families import spread  # no figure of the paper asks for what it can do
 
     inside = here if executor is not None and threads is not None else 1
@@ -90,12 +93,28 @@ def by_exponent(columns):
     return np.argsort(columns[1], kind="stable")
 
 
-def _here(function, columns, state, options, piece):
+def _in_threads(function, columns, state, options, block, threads):
     order, result = by_exponent(columns), None
-    for start in range(0, order.size, piece):
-        members = order[start : start + piece]
-        rows = function(Duffing(*columns[:, members]), np.ascontiguousarray(state[:, members]), **options)
+
+    def run(start):
+        members = order[start : start + block]
+        return members, function(Duffing(*columns[:, members]), np.ascontiguousarray(state[:, members]), **options)
+
+    def enter(members, rows):
+        nonlocal result
         if result is None:
             result = np.empty((*rows.shape[:-1], order.size), rows.dtype)
         result[..., members] = rows
+
+    if block >= order.size:
+        enter(*run(0))
+        return result
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for wave in range(0, order.size, WAVE * block):  # a bounded number waits at a time
+                for done in pool.map(run, range(wave, min(wave + WAVE * block, order.size), block)):
+                    enter(*done)
+        except BaseException:  # an error, or Ctrl-C: what has not begun never does
+            pool.shutdown(cancel_futures=True)
+            raise
     return result

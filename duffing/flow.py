@@ -21,7 +21,7 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
         eight, in friction time unless the damping is smooth in v (p = 1, 3, 5 ...); "auto" is "friction"
     options : passed on to the integrator
 
-    Returns an `Orbit`. Raises ValueError for invalid input, DivergedError or ConvergenceError where there is no answer.
+    Returns a `Solution`. Raises ValueError for invalid input, DivergedError or ConvergenceError for no answer.
     """
     checks.model(osc)
     checks.choice("method", method, METHODS)

@@ -48,15 +48,10 @@ def lyapunov_spectrum(
     checks.count("transient", transient, least=0)
     state = checks.state(state, osc.shape)
     task = {"periods": periods, "transient": transient, "k": k, "method": method, "history": bool(history), **options}
-    run = {"block": block_members(**task), "executor": executor, "progress": progress, "checkpoint": checkpoint}
-    run |= {"on_failure": on_failure, "rows": (k, 2 + periods * bool(history))}
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint, "on_failure": on_failure}
+    run |= {"block": block_for(transient + periods, method, **options), "rows": (k, 2 + periods * bool(history))}
     rows = over_blocks(_spectrum_rows, osc, state, task, **run).reshape(k, -1, *osc.shape)
     return LyapunovSpectrum(rows[:, 0], rows[:, 1], rows[:, 2:] if history else None)
-
-
-def block_members(periods=200, transient=40, **options):
-    """Members that `lyapunov_spectrum` with these options takes for a block of work, by what they roughly cost."""
-    return block_for(transient + periods, **options)
 
 
 def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d0=1e-8, steps_per_period=500):

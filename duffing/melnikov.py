@@ -93,4 +93,6 @@ def least_critical_frequency(osc):
 def _over_family(osc, value, t=0.0):
     # A field that a formula does not use still belongs to the family, whose shape is promised.
     shape = np.broadcast_shapes(osc.shape, np.shape(t))
-    return np.array(np.broadcast_to(value, shape)) if shape else value
+    if shape:
+        return np.array(np.broadcast_to(value, shape))
+    return value.item() if isinstance(value, np.generic) else value  # a number that shows itself as one

@@ -61,6 +61,15 @@ def test_crowding_crossings_below_the_tangency_have_dimension_one_when_the_cells
     assert abs(values[1] - 1) <= errors[1] + 1e-12 < 0.02 < values[0] - 1
 
 
+def test_dimension_leaves_one_at_the_tangency_at_small_p():
+    """Below it the boundary crosses the line a few times, however near the tangency is; above it more often."""
+    osc = basin_study.oscillator(0.1, 1.0)
+    tangency = homoclinic_tangency(osc) / osc.mu
+    far, before, after = (basin_study.strips(0.1, f * tangency, 3000).left.size for f in (0.99, 0.998, 1.002))
+    assert far == before < 10
+    assert after > 3 * before
+
+
 def test_friction_time_fixed_steps_and_random_starts_see_the_same_dimension_at_small_p():
     most, ratios = 3000, (0.96, 0.99, 1.1)
     values, errors, _ = basin_study.line_dimensions(0.1, ratios, most)

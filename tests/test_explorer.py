@@ -53,10 +53,13 @@ def test_the_history_begins_at_the_papers_start(story):
     assert all(len(one["history"]) == explorer.HISTORY * explorer.PER_PERIOD_HISTORY + 1 for one in story["cases"])
 
 
-def test_without_a_tangency_there_is_no_splitting_and_no_number_is_invented():
-    story = explorer.stories(p=(0.1,), amplitudes=(0.25,))[0]
-    assert story["tangency"] is None
-    assert all(one["splitting"] is None for one in story["cases"])
+def test_at_the_papers_small_exponent_only_a_force_too_weak_to_leave_the_hump_has_no_splitting():
+    story = explorer.stories(p=(0.1,), amplitudes=(0.02, 0.25))[0]
+    assert 0.97 < story["tangency"] / story["mu_c"] < 0.99
+    assert case(story, 0.02)["splitting"] is None
+    one = case(story, 0.25)["splitting"]
+    assert one[8] / 1e6 == pytest.approx(splitting(Duffing(p=0.1, mu=0.25), np.pi / 2), abs=1e-6)
+    assert all(one["splitting"] is not None for one in story["cases"] if one["mu"] > 0.06)
 
 
 def test_the_page_holds_its_data_and_asks_the_network_for_nothing(story):

@@ -290,3 +290,9 @@ def test_times_that_are_not_finite_numbers_are_named():
             homoclinic_orbit(Duffing(), bad)
         with pytest.raises(ValueError, match=r"^t0 = "):
             melnikov_function(Duffing(), bad)
+
+
+def test_a_single_oscillators_numbers_are_pythons_own_and_show_themselves_as_numbers():
+    osc = Duffing(alpha=0.25, p=0.6)
+    for value in (critical_amplitude(osc), melnikov_function(osc, 0.3)):
+        assert type(value) is float

@@ -98,7 +98,7 @@ def test_members_of_a_block_have_one_exponent_where_that_is_possible():
     assert sorted(map(sorted, exponents)) == [[0.5], [0.5], [1.0], [2.0]]
 
 
-def test_a_family_is_given_to_the_integrator_and_its_threads_in_pieces_of_two_blocks_a_thread():
+def test_a_small_family_is_left_whole_to_the_integrator_and_its_threads():
     calls = []
 
     def note(osc, state, threads):
@@ -109,7 +109,13 @@ def test_a_family_is_given_to_the_integrator_and_its_threads_in_pieces_of_two_bl
     assert calls == [(40, 3)]
     calls.clear()
     over_blocks(note, PLANE, starts(PLANE), {"threads": 3}, block=6)
-    assert calls == [(36, 3), (4, 3)]
+    assert sorted(calls) == [(4, 1), *[(6, 1)] * 6]
+
+
+def test_a_family_of_more_blocks_than_a_wave_comes_back_whole(monkeypatch):
+    monkeypatch.setattr(blocks, "WAVE", 3)
+    result = over_blocks(marks, PLANE, starts(PLANE), {"threads": 2}, block=2)
+    np.testing.assert_array_equal(result, marked(PLANE, starts(PLANE)))
 
 
 @pytest.mark.parametrize(("given", "inside"), [({}, 1), ({"threads": 2}, 2)])
@@ -154,7 +160,7 @@ def test_a_family_of_very_many_blocks_makes_a_bounded_number_of_tasks_and_files(
     np.testing.assert_array_equal(result, marked(PLANE, starts(PLANE)))
     assert executor.handed_over == len(list((tmp_path / "kept").iterdir())) == 3
     # 15 + 15 + 10 members in blocks of at most three.
-    assert sorted(line.split()[-1] for line in log.read_text().splitlines()) == ["1", *["3"] * 13]
+    assert sorted(line.split()[-1] for line in log.read_text(encoding="utf-8").splitlines()) == ["1", *["3"] * 13]
 
 
 def test_threads_stop_between_two_blocks_of_a_task(monkeypatch):
@@ -165,8 +171,7 @@ def test_threads_stop_between_two_blocks_of_a_task(monkeypatch):
         calls.append(state.shape)
         if len(calls) == 2:
             signal.raise_signal(signal.SIGINT)  # arrives in the main thread
-            while not stopped.is_set():
-                time.sleep(1e-3)
+            stopped.wait(60)
         return state
 
     stopped = threading.Event()

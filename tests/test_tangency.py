@@ -204,15 +204,15 @@ def test_bad_input_and_missing_saddle_orbits_are_named():
     with pytest.raises(ValueError, match=r"p = 1\.0"):
         tangency_correction(Duffing(p=1.0))
     with pytest.raises(NoSaddleOrbitError, match="sticks"):
-        splitting(Duffing(alpha=0.1, p=0.1, mu=0.05), 0.0)
+        splitting(Duffing(alpha=0.1, p=0.1, mu=0.05), 0.0, method="manifolds")
     with pytest.raises((NoSaddleOrbitError, ConvergenceError), match=r"alpha = 0\.1, p = 0\.1"):
-        homoclinic_tangency(Duffing(alpha=0.1, p=0.1))
+        homoclinic_tangency(Duffing(alpha=0.1, p=0.1), method="manifolds")
 
 
 def test_splitting_is_smooth_where_newtons_steps_alone_would_go_to_and_fro():
     """Along W^S at p = 0.4 the time of the crossing bends sharply there: from either side Newton's step overshoots."""
     phase = np.linspace(4.44, 4.56, 13)
-    values = splitting(Duffing(alpha=0.1, p=0.4, mu=0.11306543), phase)
+    values = splitting(Duffing(alpha=0.1, p=0.4, mu=0.11306543), phase, method="manifolds")
     slopes = np.diff(values) / np.diff(phase)
     assert np.abs(np.diff(slopes)).max() < 0.3 * np.abs(slopes).max()
 

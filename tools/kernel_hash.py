@@ -33,10 +33,10 @@ def digest(arrays):
     return found.hexdigest()[:12]
 
 
-def report(name, compute):
-    """Print the name with the hash of each field of what compute() returns, or the error that it raises."""
+def report(name, compute, arguments, **options):
+    """Print the name with the hash of each field of what compute(*arguments) returns, or the error that it raises."""
     try:
-        found = compute()
+        found = compute(*arguments, **options)
     except DuffingError as error:
         print(f"{name}: {type(error).__name__} {error}", flush=True)
         return
@@ -53,31 +53,54 @@ def main():
         own = t[:, None] * np.linspace(1.0, 1.1, MU.size)
         for tangents in range(3):
             for name, integrate in (("rk4", rk4.integrate), ("adaptive", adaptive.integrate)):
-                report(f"{name}, p = {p}, {tangents} tangents", lambda: integrate(osc, START, t, tangents))
-            report(f"adaptive, p = {p}, {tangents} tangents, own times", lambda: adaptive.integrate(osc, START, own, tangents))
-            report(f"rk4, p = {p}, {tangents} tangents, own times", lambda: rk4.integrate(osc, START, own, tangents))
+                report(f"{name}, p = {p}, {tangents} tangents", integrate, (osc, START, t, tangents))
+            report(
+                f"adaptive, p = {p}, {tangents} tangents, own times",
+                adaptive.integrate,
+                (osc, START, own, tangents),
+            )
+            report(f"rk4, p = {p}, {tangents} tangents, own times", rk4.integrate, (osc, START, own, tangents))
             few = Duffing(p=p, mu=np.linspace(0.15, 0.3, 11))
-            report(f"adaptive, p = {p}, {tangents} tangents, backward", lambda: adaptive.integrate(few, START, -t[:3] / 4, tangents))
-            report(f"adaptive, p = {p}, {tangents} tangents, loose", lambda: adaptive.integrate(osc, START, t, tangents, rtol=1e-5, atol=1e-7))
-        report(f"companion, p = {p}", lambda: two_trajectory_growth(osc, START, 2))
+            report(
+                f"adaptive, p = {p}, {tangents} tangents, backward",
+                adaptive.integrate,
+                (few, START, -t[:3] / 4, tangents),
+            )
+            report(
+                f"adaptive, p = {p}, {tangents} tangents, loose",
+                adaptive.integrate,
+                (osc, START, t, tangents),
+                rtol=1e-5,
+                atol=1e-7,
+            )
+        report(f"companion, p = {p}", two_trajectory_growth, (osc, START, 2))
         for direction in (1, -1):
             starts = np.array([np.linspace(0.1, 1.2, 21), np.linspace(-0.4, 0.5, 21)])
             one = Duffing(p=p, mu=0.27)
             for derivatives in (False, True):
                 report(
                     f"turning points, p = {p}, direction {direction}, derivatives {derivatives}",
-                    lambda: to_turning_point(one, starts, 0.2, direction, derivatives=derivatives),
+                    to_turning_point,
+                    (one, starts, 0.2, direction),
+                    derivatives=derivatives,
                 )
-            report(f"turning points beyond, p = {p}, direction {direction}", lambda: to_turning_point(one, starts, 0.2, direction, beyond=0.3))
-    mixed = Duffing(p=np.array(EXPONENTS * 5), mu=np.linspace(0.0, 0.3, 45), alpha=np.tile([0.0, 0.05, 0.1, 0.3, 0.2], 9))
+            report(
+                f"turning points beyond, p = {p}, direction {direction}",
+                to_turning_point,
+                (one, starts, 0.2, direction),
+                beyond=0.3,
+            )
+    mixed = Duffing(
+        p=np.array(EXPONENTS * 5), mu=np.linspace(0.0, 0.3, 45), alpha=np.tile([0.0, 0.05, 0.1, 0.3, 0.2], 9)
+    )
     t = 2 * np.pi * np.arange(6) / 2
     for tangents in range(3):
-        report(f"adaptive, mixed, {tangents} tangents", lambda: adaptive.integrate(mixed, START, t, tangents))
+        report(f"adaptive, mixed, {tangents} tangents", adaptive.integrate, (mixed, START, t, tangents))
     softer = Duffing(p=np.array([0.5, 1.0, 2.0]), mu=0.2, delta=0.5, gamma=0.0)
-    report("adaptive, linear spring", lambda: adaptive.integrate(softer, START, t, 2))
+    report("adaptive, linear spring", adaptive.integrate, (softer, START, t, 2))
     at_rest = Duffing(p=np.array([0.3, 1.0, 2.0]), mu=0.0)
     for name, integrate in (("rk4", rk4.integrate), ("adaptive", adaptive.integrate)):
-        report(f"{name}, at rest", lambda: integrate(at_rest, (1.0, 0.0), t, 2))
+        report(f"{name}, at rest", integrate, (at_rest, (1.0, 0.0), t, 2))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
     planes      lambda_1 over the planes of the chapter "The whole plane", 400 x 400
     basins      basins of attraction, 512 x 512 starts: seconds a picture at p = 1, about a minute at p = 0.1
     transients  the figures of the chapter on the contradiction, from more starts and finer grids
+    candidates  the likelihood of alpha and omega in steps of 0.005 and 0.00625, with a list of the likeliest
     window      the window of chaos at p = 0.1 from 200 starts
     headline    the picture in the README, docs/headline.svg: the first figure of the book
 
@@ -19,7 +20,8 @@ import numpy as np
 from book.figures import basins as basin_figures
 from book.figures import contradiction, index, small_p
 from book.figures import maps as plane_figures
-from book.studies import basins, comparison, maps, reproduction, transients
+from book.figures import missing_parameters as candidate_figures
+from book.studies import basins, comparison, inference, maps, missing_parameters, reproduction, transients
 from book.studies import small_p as small_p_study
 from duffing import Duffing, critical_amplitude, homoclinic_tangency, paper
 from duffing.basins.basins import KINDS
@@ -114,6 +116,21 @@ def exponents():
     write(contradiction.strong_forcing(shares), FOLDER / "strong_forcing.svg")
 
 
+def candidates(alpha_step=0.005, omega_step=0.00625):
+    plane = missing_parameters.plane(alpha_step, omega_step, **KEPT)
+    logs = inference.log_likelihood(plane.evidence)
+    total, best = inference.marginal(logs), inference.best_reading(logs)
+    share = np.exp(total - total.max()) / np.exp(total - total.max()).sum()
+    for k in np.argsort(-total)[:12]:
+        pair = f"alpha = {plane.evidence.alpha[k]:g}, omega = {plane.evidence.omega[k]:g}"
+        reading = f"in {best[k][0]} from t = {(0, 1200)[best[k][1]]}"
+        print(f"{pair}: log likelihood {total[k]:.2f}, {share[k]:.1%} of all, {reading}")
+    panels = {"all statements": (missing_parameters.laid_out(plane, total) - total.max()) / np.log(10)}
+    rings = {pair.letter: (pair.alpha, pair.omega) for pair in paper.LIKELY}
+    figure = candidate_figures.likelihood_maps(plane.alpha, plane.omega, plane.exponent, panels, rings)
+    write(figure, FOLDER / "candidates.png")
+
+
 def window():
     mu, found = small_p_study.window(columns=20, rows=10)
     mu_paper, paper_exponents = reproduction.exponent_curve(paper.P_SMALL)
@@ -134,12 +151,13 @@ MAPS = {
     "planes": (planes,),
     "basins": (basin_pictures,),
     "transients": (survival_curves, lifetimes_and_rates, exponents),
+    "candidates": (candidates,),
     "window": (window,),
     "headline": (headline,),
 }
 
 if __name__ == "__main__":
-    names = sys.argv[1:] or ["planes", "basins", "transients"]
+    names = sys.argv[1:] or ["planes", "basins", "transients", "candidates"]
     if unknown := [name for name in names if name not in MAPS]:
         sys.exit(f"{' '.join(unknown)}: must be among {', '.join(MAPS)}")
     for name in names:

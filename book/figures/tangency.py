@@ -4,7 +4,7 @@ from itertools import cycle
 
 import numpy as np
 
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, line_of, panel, styled
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, PageFigure, line_of, panel, styled
 
 
 @styled
@@ -67,4 +67,55 @@ def frontier(p, alpha, ratio, marked):
     axes.set_yscale("log")
     axes.grid(False)
     fig.colorbar(filled, label=r"sticking amplitude$\,/\,\mu_c$")
+    return fig
+
+
+@styled
+def parting(t, x, x_s, phase, splittings):
+    """Two orbits that turn just below and just above x_s, x (len(t), 2), and the splitting (dict fraction -> array)."""
+    fig = PageFigure(figsize=(8.6, 3.6))
+    left, right = fig.subplots(1, 2)
+    left.axhline(0, color=GREY, linewidth=0.8)
+    for path, colour, dash, label in zip(
+        x.T, (BLUE, VERMILION), ("-", "--"), ("turns below $x_s$", "turns above $x_s$"), strict=True
+    ):
+        left.plot(t, path, color=colour, linestyle=dash, label=label)
+    left.plot(0, x_s, "o", color=BLACK, markersize=5)
+    left.set(xlabel="time since the turn (dimensionless)", ylabel="displacement $x$", xlim=(0, t[-1]))
+    left.legend(loc="lower left")
+    right.axhline(0, color=GREY, linewidth=0.8)
+    for (fraction, curve), colour, dash in zip(
+        splittings.items(), (BLUE, BLACK, VERMILION), ("-.", "-", "--"), strict=True
+    ):
+        right.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\mu = {fraction:g}\,\mu_t$")
+    right.set(xlabel=r"phase of the crossing (radian)", ylabel="splitting $x_u - x_s$", xlim=(phase[0], phase[-1]))
+    right.legend()
+    return fig
+
+
+@styled
+def ratio_against_exponent(p, ratios, dry):
+    """mu_t / mu_c against p for several alpha (dict alpha -> (len(p),)), and that of dry friction at p = 0 (dict)."""
+    fig, axes = panel("damping exponent $p$", r"$\mu_t/\mu_c$", figsize=(6.8, 4.2))
+    axes.axhline(1, color=GREY, linewidth=0.8)
+    for (alpha, curve), colour, mark in zip(ratios.items(), (BLUE, ORANGE, GREEN), "xo^", strict=False):
+        axes.plot(p, curve, mark + "-", color=colour, fillstyle="none", label=rf"$\alpha = {alpha:g}$")
+        axes.plot(0, dry[alpha], "s", color=colour, clip_on=False, zorder=3)
+    axes.plot([], [], "s", color=BLACK, label="dry friction, $p = 0$")
+    axes.set_xlim(0, p[-1] + 0.05)
+    axes.legend()
+    return fig
+
+
+@styled
+def scaled_correction(alpha, corrections):
+    """(1 - mu_t / mu_c) / alpha^(1+p) against alpha for small p: dict p -> (len(alpha),)."""
+    fig, axes = panel(r"damping coefficient $\alpha$ (dimensionless)", r"$(1 - \mu_t/\mu_c)\,/\,\alpha^{1+p}$")
+    looks = zip((BLACK, BLUE, ORANGE), "so^", strict=True)
+    for (p, curve), (colour, mark) in zip(corrections.items(), looks, strict=False):
+        axes.semilogx(
+            alpha, -curve / alpha ** (1 + p), mark + "-", color=colour, fillstyle="none", label=f"$p = {p:g}$"
+        )
+    axes.set_ylim(0, None)
+    axes.legend()
     return fig

@@ -51,7 +51,7 @@ def stories(p=(0.1, 0.5, 1.0, 2.0), amplitudes=AMPLITUDES, osc=paper.OSCILLATOR)
     points : stroboscopic points in thousandths, POINTS of them or one round
     period : forcing periods in a round, 0 where none up to KEPT is seen
     history : x in thousandths over the first HISTORY periods
-    splitting : x_u - x_s in millionths over the phases of a period, None where a manifold has a gap
+    splitting : x_u - x_s in millionths over the phases of a period, None where friction catches the mass on the hump
     """
     return [_story(replace(osc, p=exponent), np.array(amplitudes)) for exponent in p]
 

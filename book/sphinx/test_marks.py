@@ -113,7 +113,9 @@ def fill(app, doctree, page):
         sign, word = MARKS[how]
         if node["kind"] == "outcome":
             count = f", {cases} cases" if cases > 1 else ""
-            node += nodes.Text(f"{sign} {how}{count}")
+            seconds = app.config.test_run["seconds"].get(test, 0.0)
+            took = f", {seconds:.0f} s" if seconds >= run_report.SLOW else ""
+            node += nodes.Text(f"{sign} {how}{count}{took}")
             node["classes"] += ["test-outcome", how.replace(" ", "-")]
         else:
             shown = nodes.inline(classes=["test-mark", how.replace(" ", "-")])
@@ -177,7 +179,11 @@ class TestPage(SphinxDirective):
 
 def load_run(app, config):
     report = run_report.of_this_state(app.srcdir)
-    config.test_run = {**report, "outcomes": run_report.by_function(report["outcomes"])}
+    functions = {
+        "outcomes": run_report.by_function(report["outcomes"]),
+        "seconds": run_report.seconds_of(report["durations"]),
+    }
+    config.test_run = {**report, **functions}
 
 
 def setup(app):

@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from duffing import checks, paper
+from duffing.errors import ConvergenceError, NoSaddleOrbitError
 from duffing.lyapunov import lyapunov_spectrum
-from duffing.manifolds.tangency import homoclinic_tangency, with_tangency
+from duffing.manifolds.tangency import homoclinic_tangency
 from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
@@ -57,10 +58,10 @@ def thresholds(field, first, last, points=120, crosses=9, osc=paper.OSCILLATOR):
     checks.choice("field", field, ("p", "omega"))
     line, few = np.linspace(first, last, points), np.linspace(first, last, crosses)
     mu_c = critical_amplitude(replace(osc, **{field: line}))
-    fixed = {"alpha": osc.alpha, "delta": osc.delta, "gamma": osc.gamma}
-    if field == "p":
-        few = np.array(with_tangency(tuple(few), omega=osc.omega, **fixed))
-    else:
-        few = np.array([omega for omega in few if with_tangency((osc.p,), omega=omega, **fixed)])
-    mu_t = homoclinic_tangency(replace(osc, **{field: few})) if few.size else few
-    return (line, mu_c), (few, mu_t)
+    found = []
+    for value in few:
+        try:
+            found.append((value, homoclinic_tangency(replace(osc, **{field: value}))))
+        except (ConvergenceError, NoSaddleOrbitError):
+            continue  # no cross there
+    return (line, mu_c), tuple(np.array(found).reshape(-1, 2).T)

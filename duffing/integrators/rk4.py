@@ -8,17 +8,17 @@ depend on the machine, on threads or on the family that a member belongs to: in 
 """
 
 import math
-import os
 
 import numpy as np
 
 from .. import checks
 from ..errors import DivergedError
+from . import processors
 from .compiled import compiled, inlined
 from .forcing import map_chunks
+from .memory import stack, views, widest_vectors
 from .powers import evaluate
 from .solution import Solution
-from .memory import stack, views, widest_vectors
 from .vectors import EIGHT, fma, root, where
 
 # Trajectories of a block: its rows stay in the first-level cache.
@@ -26,7 +26,7 @@ LANES = 64
 # Steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval.
 BETWEEN = 50
 
-# A block in parts, each of some rows: the state with its tangents at the start of a step, where the slopes are asked for,
+# A block in parts, each of some rows: the state with its tangents at the start of a step, where slopes are asked for,
 # and the sum of slopes; the parameters and the step; the tangents as last made orthonormal, and how long they were.
 NOW, STAGE, SUM, OSC, FRAME, LENGTHS = range(6)
 PARTS = ((6,), (6,), (6,), (6,), (4,), (2,))
@@ -45,7 +45,7 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     state : (2,), (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing times; each interval is cut into the least number of equal steps
     tangents : 0, 1 or 2 tangent vectors, made orthonormal at every time
-    threads : at most so many at once (default: the processors)
+    threads : at most so many at once (default: the processors that the process may use)
 
     Returns
     -------
@@ -90,7 +90,7 @@ def checked(osc, state, t, steps_per_period, threads):
         t = np.stack([checks.times(column) for column in np.transpose(t)], axis=1)
     else:
         t = checks.times(t)[:, None]
-    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    threads = processors.available() if threads is None else checks.count("threads", threads)
     return columns, state, t, checks.count("steps_per_period", steps_per_period), threads
 
 

@@ -1,8 +1,8 @@
 """Eight doubles as one number: what compiled code computes for eight lanes at once.
 
-Numba has no type for a vector. Left to find vectors in loops over lanes, LLVM takes many seconds to compile, and what it
-finds hangs on details of how the loop is written. So vectors are spelled out: a `Vector` is added, compared and chosen
-from as a float is, lane by lane, in the operations that IEEE 754 fixes; the processor takes as many instructions as its
+Numba has no type for a vector. Left to find vectors in loops over lanes, LLVM takes long to compile, and what it finds
+hangs on details of how the loop is written. So vectors are spelled out: a `Vector` is added, compared and chosen from
+as a float is, lane by lane, in the operations that IEEE 754 fixes; the processor takes as many instructions as its
 registers ask for. A function of such operations serves a single double as well as eight.
 """
 
@@ -40,8 +40,12 @@ TRUTHS = Vector("truths", ir.IntType(1))
 _OF = {types.float64: DOUBLES, types.uint64: WORDS, types.boolean: TRUTHS}  # what a single one is repeated to
 
 
+# Asked before what Numba has for any target, which takes long to say that it has none.
+FIRST = {"target": "cpu"}
+
+
 class _First(ConcreteTemplate):
-    metadata = {"target": "cpu"}  # asked before what numba has for any target, which takes long to say that it has none
+    metadata = FIRST
 
 
 def _repeated(builder, value, kind):
@@ -63,7 +67,7 @@ def _define(function, result, scalar, vector, build):
 
     @infer_global(function)
     class Template(_First):
-        cases = [signature(result, *case) for case in operands]
+        cases = tuple(signature(result, *case) for case in operands)
 
     for case in operands:
 
@@ -109,12 +113,12 @@ for _function, _build in (
 
 @infer_global(operator.neg)
 class _Negative(_First):
-    cases = [signature(DOUBLES, DOUBLES)]
+    cases = (signature(DOUBLES, DOUBLES),)
 
 
 @infer_global(abs)
 class _Absolute(_First):
-    cases = [signature(DOUBLES, DOUBLES)]
+    cases = (signature(DOUBLES, DOUBLES),)
 
 
 @lower_builtin(operator.neg, DOUBLES)

@@ -4,6 +4,8 @@ W^U (followed forward) and W^S (backward) first cross v = 0 near the outermost p
 has a position and a phase. The difference of the two positions at equal phase is the splitting. To first order in alpha
 and mu it is the Melnikov function M(t0), omega t0 = phase, divided by dH0/dx at the outermost point. A crossing counts
 beyond the bottom of the well only, so that no turning point of the slow departure from the saddle orbit is mistaken.
+
+For p < 1/2 W^S cannot be followed backward through a creep; `threshold` finds it forward, and the tangency with it.
 """
 
 from dataclasses import replace
@@ -11,12 +13,15 @@ from dataclasses import replace
 import numpy as np
 
 from .. import checks
-from ..errors import ConvergenceError, NoSaddleOrbitError
+from ..errors import ConvergenceError
 from ..integrators.friction_time.turning_points import to_turning_point
 from ..melnikov import critical_amplitude, forcing_integral
-from ..oscillator import Duffing
+from . import threshold
 from .curves import DISTANCE, STABLE, UNSTABLE, launch
+from .passage import forward_frame
 from .saddle import saddle_frame
+
+METHODS = ("auto", "manifolds", "threshold")
 
 _LAUNCHES = 32  # of W^U, all round, to make sure that the splitting found is the greatest
 _ATTEMPTS = 60  # each of them, or the next, halves the bracket
@@ -24,32 +29,45 @@ _TOLERANCE = 1e-9  # relative, of the tangency
 _LEAST = 1e-7  # of mu, dimensionless: the splitting, of the order of mu, is known to some 1e-14
 
 
-def splitting(osc, phase):
+def splitting(osc, phase, method="auto"):
     """x_u - x_s where W^U and W^S first cross v = 0 at the phase, on the right loop (x > 0): positive once they cross.
 
     osc : Duffing, a single oscillator or a family, delta < 0 < gamma
     phase : omega t modulo 2 pi of the crossing (radian), a number or (n,)
+    method : "manifolds" follows W^S backward; "threshold" finds x_s forward, as what parts the orbits that fall back
+        into the well from those that go over the hump; "auto" is "threshold" for members with p < 1/2 and damping
 
     Returns (*family) or (n, *family), a length. By symmetry the left loop has the same splitting half a period later.
-    Raises ValueError for invalid input; NoSaddleOrbitError as `saddle_orbit`; ConvergenceError where a manifold has no
-    such crossing at a phase, or cannot be followed to it.
+    Raises ValueError for invalid input; NoSaddleOrbitError as `saddle_orbit` ("threshold": as `forward_frame`, which
+    takes saddle orbits that stick); ConvergenceError where a manifold has no such crossing at a phase, or cannot be
+    followed to it.
     """
     phase = np.asarray(checks.parameter("phase", phase))
     if phase.ndim > 1 or phase.size == 0:
         raise ValueError(f"phase has shape {phase.shape}: must be a number or a sequence of them")
-    phase = np.mod(phase, 2 * np.pi)
-    frame = saddle_frame(osc)
-    values, _ = _split(frame, np.repeat(phase.reshape(-1, 1), frame.osc.mu.size, axis=1))
+    phases = np.mod(phase.ravel(), 2 * np.pi)
+
+    def follow(part):
+        frame = saddle_frame(part)
+        return _split(frame, np.repeat(phases[:, None], frame.osc.mu.size, axis=1))[0]
+
+    def part_orbits(part):
+        return threshold.split(forward_frame(part), phases)
+
+    checks.double_well(osc)
+    values = _by_method(osc.members(), method, follow, part_orbits)
     return (values.reshape(phase.shape + osc.shape) * osc.units()[0])[()]
 
 
-def homoclinic_tangency(osc):
+def homoclinic_tangency(osc, method="auto"):
     """The forcing amplitude mu at which W^U and W^S first touch, (*family); osc.mu is not used.
 
     There the greatest splitting over all phases is zero. It is found to about 1e-9, relative (1e-14 / mu where mu, made
-    dimensionless, is below 1e-5), starting from mu_c of Eq. 13, by quasi-Newton steps of mu and of the phase, whose
-    starting values are Melnikov's; then the splitting is computed all round to make sure that no other phase is ahead.
-    Errors as for `splitting`, ConvergenceError also where mu is too small for doubles.
+    dimensionless, is below 1e-5), starting from mu_c of Eq. 13. method, errors : as for `splitting`.
+
+    "manifolds": quasi-Newton steps of mu and of the phase, whose starting values are Melnikov's; then the splitting is
+    computed all round to make sure that no other phase is ahead. "threshold": the least mu at which an orbit of W^U
+    goes over the hump; no derivative is taken. Raises ConvergenceError also where mu is too small for doubles.
     """
     unit = checks.model(osc).dimensionless().members()
     mu = np.array(critical_amplitude(unit))
@@ -61,13 +79,32 @@ def homoclinic_tangency(osc):
         raise ConvergenceError(
             f"{unit.named(mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
         )
-    phase = np.full(mu.size, np.pi / 2)
+    values = _by_method(replace(unit, mu=mu), method, _contact, threshold.tangency)
+    return (values.reshape(osc.shape) * osc.units()[2])[()]
+
+
+def _by_method(osc, method, manifolds, forward):
+    """Values (..., N) of the N members, each by the function of its method."""
+    checks.choice("method", method, METHODS)
+    creeps = (osc.p < 0.5) & (osc.alpha > 0) if method == "auto" else np.full(osc.mu.size, method == "threshold")
+    values = None
+    for function, which in ((manifolds, ~creeps), (forward, creeps)):
+        if which.any():
+            part = function(osc.members(which))
+            values = np.empty((*part.shape[:-1], osc.mu.size)) if values is None else values
+            values[..., which] = part
+    return values
+
+
+def _contact(unit):
+    """mu (N,) at which the greatest splitting is zero, near the family's own mu (N,)."""
+    mu, phase = unit.mu, np.full(unit.mu.size, np.pi / 2)
     for _ in range(4):
         mu, phase = _touch(unit, mu, phase)
         height, ahead = _highest(saddle_frame(replace(unit, mu=mu)))
         behind = height < 1e-6 * mu
         if behind.all():
-            return (mu.reshape(osc.shape) * osc.units()[2])[()]
+            return mu
         phase = np.where(behind, phase, ahead)
     raise ConvergenceError(f"mu = {mu}: other phases keep coming ahead in the search for the first tangency")
 
@@ -163,18 +200,3 @@ def _follow(frame, kind, t, member):
 def _height(unit):
     """d splitting / d mu of the Melnikov function at its greatest: forcing integral over dH0/dx at x = sqrt(2)."""
     return forcing_integral(unit) / np.sqrt(2)
-
-
-def with_tangency(p, **parameters):
-    """Those exponents of the sequence p for which `homoclinic_tangency` has an answer.
-
-    parameters : the other fields of Duffing. Returns a list.
-    """
-    found = []
-    for exponent in p:
-        try:
-            homoclinic_tangency(Duffing(p=exponent, **parameters))
-        except (ConvergenceError, NoSaddleOrbitError):
-            continue
-        found.append(exponent)
-    return found

@@ -35,6 +35,30 @@ def _plane():
     return {"alpha": alpha, "p": p, "ratio": np.outer(alpha ** (1 / 3), 1.2 - p), "marked": np.array([0.1, 0.1])}
 
 
+def _parting():
+    t, phase = np.linspace(0, 20, 80), np.linspace(0, 2 * np.pi, 40)
+    x = np.array([np.cos(t / 3), np.cos(t / 3) - 0.1 * t]).T
+    return {
+        "t": t,
+        "x": x,
+        "x_s": np.array(1.02),
+        "phase": phase,
+        "split": np.array([np.cos(phase) - a for a in (1.2, 1, 0.8)]),
+    }
+
+
+def _against_exponent():
+    return {"p": P, "ratios": np.array([0.97 + 0.02 * P, 0.99 + 0.005 * P]), "dry": np.array([0.968, 0.989])}
+
+
+def _scaled():
+    alpha = np.geomspace(1e-4, 0.1, 9)
+    return {
+        "alpha": alpha,
+        "corrections": np.array([-(0.3 + 0.1 * np.sin(np.log(alpha) + s)) * alpha for s in (0, 1, 2)]),
+    }
+
+
 CASES = {
     "collapse": Case(
         _phases,
@@ -51,5 +75,24 @@ CASES = {
     ),
     "frontier": Case(
         _plane, lambda d: figures.frontier(d["p"], d["alpha"], d["ratio"], tuple(d["marked"])), to_roundoff
+    ),
+    "parting": Case(
+        _parting,
+        lambda d: figures.parting(
+            d["t"], d["x"], float(d["x_s"]), d["phase"], dict(zip((0.9, 1.0, 1.1), d["split"], strict=True))
+        ),
+        to_roundoff,
+    ),
+    "ratio_against_exponent": Case(
+        _against_exponent,
+        lambda d: figures.ratio_against_exponent(
+            d["p"], dict(zip((0.1, 0.02), d["ratios"], strict=True)), dict(zip((0.1, 0.02), d["dry"], strict=True))
+        ),
+        to_roundoff,
+    ),
+    "scaled_correction": Case(
+        _scaled,
+        lambda d: figures.scaled_correction(d["alpha"], dict(zip((0, 0.1, 0.2), d["corrections"], strict=True))),
+        to_roundoff,
     ),
 }

@@ -28,7 +28,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
     max_steps : for each interval
     switch : relaxation times an explicit step, 0 < switch <= 0.6, above which a creep is followed by implicit steps;
         the cost depends on it, the result does not
-    threads : at most so many at once (default: the processors); the result is the same to the last bit
+    threads : at most so many at once (default: those the process may use); the result is the same to the last bit
 
     Returns
     -------

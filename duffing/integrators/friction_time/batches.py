@@ -1,13 +1,13 @@
 """What both front ends of `run_lanes` share: members, tolerances, threads and the names of failures."""
 
 import math
-import os
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from ... import checks
 from ...errors import ConvergenceError, DivergedError
+from .. import processors
 from .block import WIDTH
 from .equations import parameters
 from .scheduler import RESULTS, run_lanes
@@ -48,7 +48,9 @@ def integrate_members(columns, states, times, event, beyond, tangents, control, 
     """Results of `run_lanes` for all members, (9, n - 1, N), and the number of force evaluations (N,).
 
     columns (6, N), states (2, N), times (N, n); event, beyond, tangents, control : as for `run_lanes`
-    threads : at most so many at once (None: the processors). Raises the named error of the first member that fails.
+    threads : at most so many at once (None: the processors that the process may use)
+
+    Raises the named error of the first member that fails.
     """
     alpha, p = columns[:2]
     least = np.finfo(float).eps / control[0]  # w = |v|^p holds v to a relative eps / p
@@ -56,7 +58,7 @@ def integrate_members(columns, states, times, event, beyond, tangents, control, 
     if not np.all(allowed):
         bad = p[allowed.argmin()]
         raise ValueError(f"p = {bad}: must be from {least:.1e} (for rtol = {control[0]}) to {_MOST_P:g}")
-    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    threads = processors.available() if threads is None else checks.count("threads", threads)
     size, intervals = times.shape[0], times.shape[1] - 1
     # One layout in memory, for which the kernel is compiled once.
     rows, starts, times = parameters(columns), np.ascontiguousarray(states.T), np.ascontiguousarray(times)

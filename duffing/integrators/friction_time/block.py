@@ -29,8 +29,8 @@ LAST = 12  # stage of a step
 PARAMETERS = 9
 ALPHA, P, MU, OMEGA, DELTA, GAMMA, M, N, START = range(PARAMETERS)
 SPRING, DAMPER = range(2)
-# H: the step in sigma to be tried; MOVE: the one that the tolerance alone allows; CREEP: that of a creep in time (0: not
-# creeping); NEAR, FAR: bracket of the length of a step that ends on the target, FAR = 0 if there is none; REJECTED:
+# H: the step in sigma to be tried; MOVE: the one that the tolerance alone allows; CREEP: that of a creep in time, 0 if
+# there is none; NEAR, FAR: bracket of the length of a step that ends on the target, FAR = 0 if there is none; REJECTED:
 # whether the last step was (0 or 1); GAIN: the logarithm by which errors have grown backward on a slow branch; OUTCOME:
 # what befell the lane in its last step; STEPS: since the last target.
 H, MOVE, CREEP, NEAR, FAR, REJECTED, GAIN, OUTCOME, STEPS = range(9)

@@ -11,13 +11,13 @@ from ..compiled import inlined, inner
 from ..memory import widest_vectors
 from ..vectors import fma, repeated, root, where
 from .block import (
-    ETA1, ETA2, H, LAST, M, NEW, NOW, OSC, S, SLOPES, STEP, T, W, X, XI1, XI2, eights,
+    ETA1, ETA2, LAST, NEW, NOW, SLOPES, STEP, XI1, XI2, H, M, S, T, W, X, eights,
 )  # fmt: skip
 from .equations import SMOOTH, rates
 
 
 def _without_zeros(table):
-    """(weights, their columns, their number) of each row; columns without a sign, which an index need not be asked for."""
+    """The weights that are not zero, their columns and their number, row by row."""
     columns = [np.flatnonzero(row) for row in table]
     number = np.array([len(c) for c in columns])
     weights, at = np.zeros((len(table), number.max())), np.zeros((len(table), number.max()), dtype=np.uint64)
@@ -64,7 +64,11 @@ def _combine(block, number, stage, tangents, kind):
             t = x = w = repeated(0.0, h[c])
             for k in range(_NUMBER[stage]):
                 weight, j = _WEIGHTS[stage, k], _FROM[stage, k]
-                t, x, w = fma(weight, slopes[j, T, c], t), fma(weight, slopes[j, X, c], x), fma(weight, slopes[j, W, c], w)
+                t, x, w = (
+                    fma(weight, slopes[j, T, c], t),
+                    fma(weight, slopes[j, X, c], x),
+                    fma(weight, slopes[j, W, c], w),
+                )
             new[T, c], new[X, c], new[W, c] = fma(h[c], t, now[T, c]), fma(h[c], x, now[X, c]), fma(h[c], w, now[W, c])
         if stage == LAST:  # friction time acts on nothing: only its end counts
             for c in range(number):

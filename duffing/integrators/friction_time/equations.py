@@ -23,11 +23,11 @@ import math
 import numpy as np
 
 from ..compiled import inlined, inner
-from ..memory import widest_vectors
+from ..memory import apart, widest_vectors
 from ..vectors import fma, repeated, where
 from .block import (
-    ALPHA, DAMPER, DELTA, ETA1, ETA2, GAMMA, LINEAR, M, MU, N, NEW, NOW, OMEGA, OSC, S, SLOPES, SPRING, START, T, W, X,
-    XI1, XI2, eights, lanes,
+    ALPHA, DAMPER, DELTA, ETA1, ETA2, GAMMA, LINEAR, MU, NEW, NOW, OMEGA, OSC, SLOPES, SPRING, START, XI1, XI2, M,
+    N, S, T, W, X, eights, lanes,
 )  # fmt: skip
 from .elementary import cosine, logarithm, power
 
@@ -135,6 +135,7 @@ def rates(block, number, stage, tangents, kind):
 @inner
 def first_slopes(block, l):
     """SLOPES of stage 0: those of one lane at NOW."""
+    apart()
     osc, now, linear = lanes(block, OSC), lanes(block, NOW), lanes(block, LINEAR)
     rate = lanes(block, SLOPES)[0]
     equations_of_motion(osc, now, rate, linear, l, TWO_POWERS)

@@ -5,9 +5,9 @@ tangent to the orbit. Each trial is a step like any other: the lanes beside do n
 """
 
 from ..compiled import inlined, inner
+from ..memory import apart
 from ..vectors import where
-from .block import FAR, H, LAST, MOVE, NEAR, NEW, NOW, OWNER, SLOPES, STEP, T, TARGET, W, lanes
-from .equations import first_slopes
+from .block import FAR, LAST, MOVE, NEAR, NEW, NOW, OWNER, SLOPES, STEP, TARGET, H, T, W, lanes
 
 
 @inlined
@@ -25,6 +25,7 @@ def _slack(target):
 @inner
 def locate_event(block, l, event):
     """After a step that crosses, and after each trial: True if it has arrived, else H is the next trial's length."""
+    apart()
     now, new, slopes = lanes(block, NOW), lanes(block, NEW), lanes(block, SLOPES)
     step, rate = lanes(block, STEP), slopes[LAST]
     target = lanes(block, OWNER)[TARGET, l] if event == T else 0.0
@@ -51,13 +52,13 @@ def locate_event(block, l, event):
     for row in range(8):
         now[row, l] = new[row, l] + shift * rate[row, l]
     now[event, l], step[FAR, l], step[H, l] = target, 0.0, step[MOVE, l]
-    first_slopes(block, l)
     return True
 
 
 @inner
 def _first_guess(f0, slope0, f1, slope1, h):
     """Zero of the cubic through both ends of the step, by a few Newton steps inside the bracket."""
+    apart()
     near, far = 0.0, 1.0
     z = f0 / (f0 - f1)
     for _ in range(8):

@@ -24,7 +24,7 @@ from numba import carray
 
 from ..compiled import inlined, inner
 from ..memory import stack
-from .block import ALPHA, DELTA, GAMMA, MU, NEW, NOW, OSC, P, S, T, X, XI1, lanes
+from .block import ALPHA, DELTA, GAMMA, MU, NEW, NOW, OSC, XI1, P, S, T, X, lanes
 from .equations import force, stiffness
 
 STAGES = 5

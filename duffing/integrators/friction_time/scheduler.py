@@ -10,19 +10,28 @@ import math
 
 from numba import int64
 
-from ..compiled import compiled, inner
-from ..memory import stack
+from ..compiled import announced, compiled, inner
+from ..memory import apart, stack
 from .block import (
-    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, H, INTERVAL, LOG1, LOG2, M, MEMBER, MOVE, N, NEW,
-    NOW, OMEGA, OSC, OUTCOME, OWNER, P, PARAMETERS, PASSAGES, REJECTED, S, SHEAR, SIGN, SLOPES, START, STEP, STEPS, T,
-    TARGET, W, WIDTH, X, XI1, XI2, lanes,
+    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LOG1, LOG2, MEMBER, MOVE, NEW, NOW,
+    OMEGA, OSC, OUTCOME, OWNER, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, STEPS, TARGET,
+    WIDTH, XI1, XI2, H, M, N, P, S, T, W, X, lanes,
 )  # fmt: skip
 from .dop853 import step
 from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
 from .event_location import locate_event
 from .radau import at_rest, radau_step
 from .step_control import (
-    ARRIVES, COLLAPSES, CREEPS, DONE, GOING, NO_CROSSING, STUCK, TOO_MANY_STEPS, accept_steps, not_beyond,
+    ARRIVES,
+    COLLAPSES,
+    CREEPS,
+    DONE,
+    GOING,
+    NO_CROSSING,
+    STUCK,
+    TOO_MANY_STEPS,
+    accept_steps,
+    not_beyond,
 )  # fmt: skip
 from .tangent_frame import log_area, orthonormalise
 
@@ -44,20 +53,22 @@ def run_lanes(parameters, states, times, event, beyond, tangents, control, resul
     """
     block = stack(BLOCK)
     owner, outcome = lanes(block, OWNER), lanes(block, STEP)[OUTCOME]
-    kind, waiting, used = SMOOTH, 0, min(status.size, WIDTH)
+    kind, waiting, used = SMOOTH, int64(0), min(status.size, WIDTH)
     for l in range(used):
         owner[MEMBER, l] = -1.0
     while True:
         l = int64(0)  # a variable: functions that are called with a constant are compiled for it
         while l < used:
+            moved = False
             if owner[MEMBER, l] >= 0.0 and outcome[l] != GOING:
-                handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations)
-            if owner[MEMBER, l] >= 0.0:
-                l += 1
-            elif waiting < status.size:
+                moved = handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations)
+            if owner[MEMBER, l] < 0.0 and waiting < status.size:
                 kind = max(kind, load_member(block, l, waiting, parameters, states))
-                start_interval(block, l, 0, times, event)
-                waiting += 1
+                start_interval(block, l, int64(0), times, event)
+                waiting, moved = waiting + 1, True
+            if owner[MEMBER, l] >= 0.0:
+                if moved:
+                    first_slopes(block, l)
                 l += 1
             else:  # nobody waits: the last lane moves here, so that the block gets smaller
                 used -= 1
@@ -70,9 +81,13 @@ def run_lanes(parameters, states, times, event, beyond, tangents, control, resul
         accept_steps(block, number, event, tangents, control, kind)
 
 
+announced(run_lanes, "the accurate integrator")
+
+
 @inner
 def load_member(block, l, member, parameters, states):
     """Member's parameters, start, identity as tangents and a careful first step; returns the lane's kind."""
+    apart()
     osc, now, step, owner = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP), lanes(block, OWNER)
     for k in range(PARAMETERS):
         osc[k, l] = parameters[member, k]
@@ -88,7 +103,8 @@ def load_member(block, l, member, parameters, states):
 
 @inner
 def start_interval(block, l, interval, times, event):
-    """The next time to reach, and what is counted since the last; the slopes there."""
+    """The next time to reach; what is counted since the last begins anew."""
+    apart()
     osc, now, step = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP)
     frame, owner = lanes(block, FRAME), lanes(block, OWNER)
     member = int(owner[MEMBER, l])
@@ -99,26 +115,30 @@ def start_interval(block, l, interval, times, event):
     step[FAR, l] = step[REJECTED, l] = step[GAIN, l] = step[STEPS, l] = step[OUTCOME, l] = 0.0
     step[MOVE, l] = owner[SIGN, l] * abs(step[MOVE, l])
     step[H, l] = not_beyond(osc, owner, l, event, 0.0, step[MOVE, l])
-    first_slopes(block, l)
     owner[EVALUATIONS, l] += 1.0
 
 
 @inner
 def handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations):
-    """Do what the lane's last step asks for, until it is ready for a step again or its trajectory has ended."""
+    """Do what the lane's last step asks for, until it is ready for a step again or its trajectory has ended.
+
+    Returns whether the lane has left the point at which its slopes are known.
+    """
+    apart()
     osc, now, step, owner = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP), lanes(block, OWNER)
     outcome = int(step[OUTCOME, l])
     if outcome == ARRIVES:
         if not locate_event(block, l, event):
-            return
+            return False
         # A turning point that was not asked for is a state like any other.
         outcome = DONE if event == T or now[X, l] > beyond else GOING
     elif outcome == COLLAPSES:
         orthonormalise(block, l, tangents, log_area(block, l, tangents))
-        first_slopes(block, l)
         outcome = GOING
     elif outcome == CREEPS:
-        step[CREEP, l] = max(step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l])  # the first can underflow
+        step[CREEP, l] = max(
+            step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l]
+        )  # the first can underflow
         outcome = creep(block, l, event, beyond, tangents, control)
     while outcome != GOING:
         member, interval = int(owner[MEMBER, l]), int(owner[INTERVAL, l])
@@ -127,14 +147,16 @@ def handle_event(block, l, times, event, beyond, tangents, control, results, sta
             store(block, l, results[member, interval])
         if outcome != DONE or interval + 2 == times.shape[1]:
             status[member], evaluations[member], owner[MEMBER, l] = outcome, int(owner[EVALUATIONS, l]), -1.0
-            return
+            return True
         start_interval(block, l, interval + 1, times, event)
         outcome = creep(block, l, event, beyond, tangents, control) if step[CREEP, l] > 0.0 else GOING
+    return True
 
 
 @inner
 def store(block, l, result):
     """Write the results of an interval."""
+    apart()
     now, frame = lanes(block, NOW), lanes(block, FRAME)
     result[AT_X], result[AT_V] = now[X, l], velocity(lanes(block, OSC), l, now[W, l])
     result[AT_T], result[AT_S] = now[T, l], now[S, l]
@@ -145,6 +167,7 @@ def store(block, l, result):
 @inner
 def creep(block, l, event, beyond, tangents, control):
     """Implicit steps until the target or a failure, or (GOING) until a step is short enough for the explicit method."""
+    apart()
     osc, now, new, step = lanes(block, OSC), lanes(block, NOW), lanes(block, NEW), lanes(block, STEP)
     frame, owner = lanes(block, FRAME), lanes(block, OWNER)
     rtol, atol, most_steps, switch = control
@@ -185,6 +208,5 @@ def creep(block, l, event, beyond, tangents, control):
         if step[CREEP, l] * alpha * n * power < _LEAVE * switch * phi and not resting:
             step[MOVE, l], step[CREEP, l] = step[CREEP, l] / phi * (m + phi), 0.0
             step[H, l] = step[MOVE, l]
-            first_slopes(block, l)
             return GOING
     return TOO_MANY_STEPS

@@ -5,14 +5,12 @@ Everything is each lane's own and chosen by selection instead of branches, so th
 
 import math
 
-import numpy as np
-
 from ..compiled import inlined, inner
 from ..memory import widest_vectors
 from ..vectors import root, where
 from .block import (
-    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, H, LAST, M, MOVE, N, NEW, NOW, OSC, OUTCOME, OWNER, P, REJECTED, S, SIGN,
-    SLOPES, STEP, STEPS, T, TARGET, W, X, eights,
+    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, REJECTED, SIGN, SLOPES, STEP,
+    STEPS, TARGET, H, M, N, P, S, T, W, X, eights,
 )  # fmt: skip
 from .dop853 import error
 from .equations import SMOOTH, TWO_POWERS, stiffness

@@ -3,6 +3,7 @@
 import math
 
 from ..compiled import inlined, inner
+from ..memory import apart
 from .block import ETA1, ETA2, FRAME, LOG1, LOG2, NOW, SHEAR, XI1, XI2, lanes
 
 
@@ -17,6 +18,7 @@ def collapses(state, l):
 @inner
 def log_area(block, l, tangents):
     """Logarithm of the area that both tangent vectors span, which stays positive."""
+    apart()
     now = lanes(block, NOW)
     area = now[XI1, l] * now[ETA2, l] - now[ETA1, l] * now[XI2, l] if tangents == 2 else 1.0
     return math.log(area) if area > 0.0 else -math.inf
@@ -25,6 +27,7 @@ def log_area(block, l, tangents):
 @inner
 def orthonormalise(block, l, tangents, log_area):
     """Gram and Schmidt: the tangent vectors become orthonormal, the factor R is multiplied onto the frame's."""
+    apart()
     if tangents == 0:
         return
     now, frame = lanes(block, NOW), lanes(block, FRAME)
