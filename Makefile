@@ -1,9 +1,14 @@
-# make book | test | check-book | lab | pdf | archive | maps | window | bench | lint | clean,
-# and for the maintainer: make reproducible | mutants | record | environment | baselines | headline
+# make book | test | check | check-book | proof | lab | pdf | archive | maps | bench | lint | clean,
+# and for the maintainer: make reproducible | mutants | elsewhere | slow | record | environment | baselines
 # Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
+# The same without make: the README's plain commands.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+# The Pythons that are tested, oldest and newest, as pyproject.toml names them.
+PYTHONS = $(shell sed -n 's/.*"Programming Language :: Python :: \(3\.[0-9]*\)".*/\1/p' pyproject.toml)
+OLDEST = $(firstword $(PYTHONS))
+NEWEST = $(lastword $(PYTHONS))
 BENCH := .venv-bench
 PEERS := diffrax heyoka jitcode pynamicalsys
 # Chapters read side by side. Their cells use all cores by themselves: more than two gains little.
@@ -15,7 +20,23 @@ LAB_DEFAULTS := { \
     "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}, \
     "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false}}
 
-.PHONY: book test check-book lab bench record maps window reproducible mutants pdf archive lint clean environment baselines headline
+# Nothing personal reaches what make starts: no packages or start-up files from elsewhere, no installation outside .venv,
+# no other encoding or language. What kernels and tests look up at home besides: book/sphinx/isolation.py.
+unexport $(filter-out PYTHON,$(filter PYTHON%,$(.VARIABLES))) PIP_TARGET PIP_PREFIX PIP_ROOT
+export PYTHONNOUSERSITE := 1
+export PYTHONUTF8 := 1
+export PIP_USER := 0
+export LC_ALL := C
+
+# An environment holds the path that it was made at: in a moved or copied checkout it is made anew; and so is it for
+# another Python than its own, where one is named: make PYTHON=python3.12 ...
+$(foreach env,.venv $(BENCH),$(shell [ "$$(cat $(env)/place 2>/dev/null)" = "$$(pwd -P)" ] || rm -f $(env)/ready $(env)/installed))
+ifeq ($(origin PYTHON),command line)
+$(shell [ "$$($(BIN)/python -V 2>&1)" = "$$($(PYTHON) -V 2>&1)" ] || rm -f $(READY) .venv/installed)
+endif
+
+.PHONY: book test check slow check-book proof lab bench record maps reproducible mutants elsewhere pdf archive lint clean \
+    environment baselines
 
 book: $(READY)
 	@$(BIN)/python book/sphinx/build.py $(JOBS)
@@ -23,17 +44,28 @@ book: $(READY)
 test: $(READY)
 	$(BIN)/python -m pytest --numprocesses=2 --dist=loadfile
 
+# The core of the tests: a minute or two.
+check: $(READY)
+	$(BIN)/python -m pytest --numprocesses=2 --dist=loadfile -m "not slow"
+
+# Which tests are slow, after a change that made some so: as measured by the last `make test`.
+slow: $(READY)
+	$(BIN)/python book/sphinx/run_report.py
+
+# The theorem, proved by ball arithmetic.
+proof: $(READY)
+	$(BIN)/python -m proof
+
 lab: $(READY)
-	$(BIN)/jupyter lab --notebook-dir=. --LabApp.default_url=/lab/tree/chapters/index.md $(LAB_OPTIONS)
+	$(BIN)/python -m jupyter lab --notebook-dir=. --LabApp.default_url=/lab/tree/chapters/index.md $(LAB_OPTIONS)
 
 # Side by side with other packages, which have an environment of their own; `make bench QUICK=--quick` for a first look.
 bench: $(BENCH)/ready
 	$(BENCH)/bin/python -m benchmarks $(QUICK)
-	$(BENCH)/bin/python benchmarks/scale.py
 
 # The dated measurement that the chapter on speed shows.
 record: $(BENCH)/ready
-	$(BENCH)/bin/python -m benchmarks --record benchmarks/results.json
+	$(BENCH)/bin/python -m benchmarks --record book/studies/speed.json
 
 # The built book in Chromium with the network cut.
 check-book: $(READY)
@@ -46,11 +78,11 @@ pdf: book
 archive: book
 	$(BIN)/python tools/archive.py
 
-# Planes and basins at full resolution into _build/maps: hours on two cores; an interrupted run goes on where it was.
+# Planes, basins and transients at full resolution into _build/maps: hours on two cores; an interrupted run goes on where
+# it was. `make maps WHAT=candidates`: the candidates for alpha and omega on a finer grid, some minutes; WHAT=window: the
+# window of chaos from 200 starts, some minutes; WHAT=headline: the README's picture.
 maps: $(READY)
-	$(BIN)/python tools/maps.py
-	$(BIN)/python tools/maps_basins.py 512
-	$(BIN)/python tools/maps_transients.py
+	$(BIN)/python tools/maps.py $(WHAT)
 
 # Two runs of the chapters, on one thread and on several: the same numbers bit for bit.
 reproducible: $(READY)
@@ -60,21 +92,19 @@ reproducible: $(READY)
 mutants: $(READY)
 	$(BIN)/python tools/mutants.py
 
-# The window of chaos from 200 starts instead of the book's 32: some minutes.
-window: $(READY)
-	$(BIN)/python tools/window.py
+# The core of the tests and a small book as strangers would run them: no home, other settings, one processor, no network.
+elsewhere: $(READY)
+	$(BIN)/python tools/elsewhere.py
 
-# The picture in the README.
-headline: $(READY)
-	$(BIN)/python tools/headline.py
-
+# The project's own files: what a reader keeps beside them is his own affair.
+SOURCES := benchmarks book duffing proof tests tools
 lint: $(READY)
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
+	$(BIN)/ruff check $(wildcard $(SOURCES))
+	$(BIN)/ruff format --check $(wildcard $(SOURCES))
 
 # Everything that the other targets make, except the environment (rm -rf .venv).
 clean:
-	rm -rf _build .pytest_cache .ruff_cache .hypothesis
+	rm -rf _build build *.egg-info .pytest_cache .ruff_cache .hypothesis
 	find . \( -name .venv -o -name .venv-bench \) -prune -o -name __pycache__ -prune -exec rm -rf {} +
 
 # The reference data and images of the figures, after a change that is meant to alter them.
@@ -83,30 +113,34 @@ baselines: $(READY)
 
 # Pins every package anew from pyproject.toml, keeping the present versions where they still fit (delete environment.txt
 # first to update all). The maintainer's own target, and the only one that needs uv: it resolves for all systems at once.
+PIN := uv pip compile --quiet --universal --python-version $(OLDEST) --fork-strategy fewest --no-annotate --no-header
 environment:
 	grep -sv '^-e' environment.txt >environment.new || true
-	uv pip compile --quiet --universal --python-version 3.11 --fork-strategy fewest --no-annotate --no-header \
-	    --extra book --extra cluster --extra test pyproject.toml -o environment.new
-	{ echo '# Every package pinned, for Python 3.11 to 3.13 on Linux and on macOS (Arm). Compiled from pyproject.toml by `make environment`.'; \
+	$(PIN) --extra book --extra cluster --extra proof --extra test pyproject.toml -o environment.new
+	{ echo '# Every package pinned, for Python $(OLDEST) to $(NEWEST) on Linux and on macOS (Arm). Compiled from pyproject.toml by `make environment`.'; \
 	    cat environment.new; echo '-e .'; } >environment.txt
 	rm environment.new
 	grep -v '^-e' environment.txt >pins.new
-	uv pip compile --quiet --universal --python-version 3.11 --fork-strategy fewest --no-annotate --no-header \
-	    --extra bench -c pins.new pyproject.toml -o benchmarks.new
+	$(PIN) --extra bench -c pins.new pyproject.toml -o benchmarks.new
 	{ sed -n '/^#/p' benchmarks/environment.txt; cat benchmarks.new; } >pins.new
 	mv pins.new benchmarks/environment.txt && rm benchmarks.new
 
-# A changed environment.txt makes a new .venv, and so does an installation that did not come to its end; a changed
-# pyproject.toml alone installs the package anew.
-$(READY): environment.txt pyproject.toml
+# A changed environment.txt makes a new .venv, and so does an installation that did not come to its end. Packages changed
+# by hand (their folder is then younger) are put back to their pins; a changed pyproject.toml installs the package anew.
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+$(READY): environment.txt pyproject.toml $(wildcard .venv/lib/python3.*/site-packages)
 	@rm -f $@
-	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; (3, 11) <= v <= (3, 13) or sys.exit( \
-	    f"Python 3.11, 3.12 or 3.13 is needed, and $(PYTHON) is {v[0]}.{v[1]}. Name another: make PYTHON=python3.12 ...")'
-	@if cmp -s environment.txt .venv/installed; then \
-	    $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -e .; \
-	else \
+	@$(PYTHON) -c 'import sys; oldest, newest, name = sys.argv[1:]; here = "%d.%d" % sys.version_info[:2]; \
+	    minor = lambda version: int(version.split(".")[1]); \
+	    sys.version_info >= (3, minor(oldest)) or sys.exit("Python %s or newer is needed, and %s is %s. Name another: make PYTHON=python%s ..." % (oldest, name, here, newest)); \
+	    minor(here) <= minor(newest) or print("Python %s is untested: the project is tested with %s to %s. Going on." % (here, oldest, newest))' $(OLDEST) $(NEWEST) $(PYTHON)
+	@if ! cmp -s environment.txt .venv/installed; then \
 	    echo "Making .venv from environment.txt: about two minutes, 1 GB" && rm -rf .venv && $(PYTHON) -m venv .venv && \
-	    $(BIN)/python -m pip install --quiet --disable-pip-version-check -r environment.txt && cp environment.txt .venv/installed; \
+	    $(INSTALL) -r environment.txt && pwd -P >.venv/place && cp environment.txt .venv/installed; \
+	elif ! $(BIN)/python tools/pins.py; then \
+	    $(INSTALL) -r environment.txt; \
+	elif [ -n "$(filter pyproject.toml,$?)" ]; then \
+	    $(INSTALL) --no-deps -e .; \
 	fi
 	@mkdir -p $(dir $(LAB_SETTINGS)) && echo '$(LAB_DEFAULTS)' >$(LAB_SETTINGS)
 	@touch $@
@@ -118,4 +152,4 @@ $(BENCH)/ready: benchmarks/environment.txt pyproject.toml
 	    $(BENCH)/bin/python -m pip install --quiet --disable-pip-version-check -c benchmarks/environment.txt $$peer || \
 	    echo "$$peer cannot be installed here: the benchmarks leave it out"; \
 	done
-	@touch $@
+	@pwd -P >$(BENCH)/place && touch $@

@@ -110,7 +110,7 @@ def processor():
 def compiler():
     """The first line with which gcc names itself."""
     gcc = shutil.which("gcc")
-    return subprocess.check_output([gcc, "--version"], text=True).splitlines()[0] if gcc else "no gcc"
+    return subprocess.check_output([gcc, "--version"], text=True, encoding="utf-8").splitlines()[0] if gcc else "no gcc"
 
 
 def with_one_processor(measure):

@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 
-from duffing.integrators import rk4
+from duffing.integrators import processors, rk4
 from duffing.integrators.friction_time import adaptive as friction
 
 from .rewrites import START
@@ -65,7 +65,7 @@ def measure(rounds, quick=False):
 
 
 def _processors():
-    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(os.cpu_count())
+    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(processors.available())
 
 
 TITLES = {

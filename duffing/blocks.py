@@ -1,19 +1,20 @@
-"""A family in one piece or in blocks: how large a block is, and whether anything has to be cut at all.
+"""A family piece by piece: how large a block of it is, and one block after the other.
 
-A member's numbers do not depend on its company, so neither do they on the blocks. Where nobody asks for an executor,
-for progress or for a checkpoint, and the family is small, the integrator has it whole; all else is for `sweep`, which
-is imported when it is called for.
+A member's numbers do not depend on its company, so neither do they on the blocks. Executors, progress and checkpoints
+are the work of `sweep`, which is imported when it is called for.
 """
 
-import os
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from . import checks
-from .failures import POLICIES, announce, attempted
-from .flow import METHODS
+from .flow import METHODS, POLICIES
+from .integrators import processors
+from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better
+WAVE = 4096  # blocks handed to the threads at a time
 # Seconds of one core in a block: far above the cost of handing one over (a few milliseconds at worst), and short
 # enough that an interrupted run, whose blocks under way come to their end, is over within a second (if it is not asked
 # for so many thousand periods that the fewest members take longer).
@@ -71,19 +72,20 @@ def over_blocks(
     """
     options = dict(options)
     threads = options.pop("threads", None)
-    here = os.cpu_count() if threads is None else checks.count("threads", threads)
+    here = processors.available() if threads is None else checks.count("threads", threads)
     checks.count("block", block)
-    lenient = None if checks.choice("on_failure", on_failure, POLICIES) == "raise" else rows
-    unseen = executor is None and progress is None and checkpoint is None
-    # Little work that nobody wants to see in parts is left whole to the integrator, which has threads of its own. It
-    # runs in the caller's thread, where an interrupt arrives at once.
-    if unseen and (dwindling or state.shape[1] <= 2 * here * block):
-        result = _whole(function, checks.model(osc), state, {**options, "threads": here}, lenient)
-    else:
-        result = _spread(function, osc, state, options, block, here, executor, threads, lenient, progress, checkpoint)
-    if lenient is not None:
-        announce(result, osc, lambda members: function(osc.members(members), state[:, members], **options))
-    return result
+    lenient = checks.choice("on_failure", on_failure, POLICIES) == "nan"
+    if executor is None and progress is None and checkpoint is None and not lenient:
+        columns = checks.model(osc).columns()
+        if dwindling or state.shape[1] <= 2 * here * block:
+            # Little work is left whole to the integrator, which has threads of its own, in the caller's thread.
+            return _in_threads(function, columns, state, {**options, "threads": here}, state.shape[1], 1)
+        return _in_threads(function, columns, state, {**options, "threads": 1}, block, here)
+    from .sweep.families import spread  # no figure of the paper asks for what it can do
+
+    inside = here if executor is not None and threads is not None else 1
+    rows = rows if lenient else None
+    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint, rows)
 
 
 def by_exponent(columns):
@@ -91,25 +93,28 @@ def by_exponent(columns):
     return np.argsort(columns[1], kind="stable")
 
 
-def _whole(function, osc, state, options, rows):
-    order = by_exponent(osc.columns())
-    result = on_block(function, osc.members(order), np.ascontiguousarray(state[:, order]), options, rows)
-    back = np.empty_like(result)
-    back[..., order] = result
-    return back
+def _in_threads(function, columns, state, options, block, threads):
+    order, result = by_exponent(columns), None
 
+    def run(start):
+        members = order[start : start + block]
+        return members, function(Duffing(*columns[:, members]), np.ascontiguousarray(state[:, members]), **options)
 
-def on_block(function, osc, state, options, rows=None):
-    """function on a block of members; rows : None, or the shape of a member's result, NaN where it has no answer."""
+    def enter(members, rows):
+        nonlocal result
+        if result is None:
+            result = np.empty((*rows.shape[:-1], order.size), rows.dtype)
+        result[..., members] = rows
 
-    def some(members):
-        return function(osc.members(members), np.ascontiguousarray(state[:, members]), **options)
-
-    return function(osc, state, **options) if rows is None else attempted(some, np.arange(state.shape[1]), rows)
-
-
-def _spread(function, osc, state, options, block, here, executor, threads, rows, progress, checkpoint):
-    from .sweep.families import spread  # executors, progress and checkpoints: no figure of the paper asks for them
-
-    inside = here if executor is not None and threads is not None else 1
-    return spread(function, osc, state, options, block, here, inside, executor, progress, checkpoint, rows)
+    if block >= order.size:
+        enter(*run(0))
+        return result
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for wave in range(0, order.size, WAVE * block):  # a bounded number waits at a time
+                for done in pool.map(run, range(wave, min(wave + WAVE * block, order.size), block)):
+                    enter(*done)
+        except BaseException:  # an error, or Ctrl-C: what has not begun never does
+            pool.shutdown(cancel_futures=True)
+            raise
+    return result

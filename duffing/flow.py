@@ -3,10 +3,10 @@
 import numpy as np
 
 from . import checks
-from .failures import answers
 from .integrators import rk4
 
 METHODS = ("auto", "rk4", "friction")
+POLICIES = ("raise", "nan")  # where a member of a family has no answer
 RK4_OPTIONS = ("steps_per_period", "threads")
 FRICTION_OPTIONS = ("rtol", "atol", "max_steps", "switch", "threads")
 
@@ -21,7 +21,7 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
         eight, in friction time unless the damping is smooth in v (p = 1, 3, 5 ...); "auto" is "friction"
     options : passed on to the integrator
 
-    Returns an `Orbit`. Raises ValueError for invalid input, DivergedError or ConvergenceError where there is no answer.
+    Returns a `Solution`. Raises ValueError for invalid input, DivergedError or ConvergenceError for no answer.
     """
     checks.model(osc)
     checks.choice("method", method, METHODS)
@@ -50,7 +50,19 @@ def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
     def states(members):
         return integrate(osc.members(members), state[:, members], t, method=method, **options).states
 
-    return answers(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
+    return answered(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
+
+
+def answered(function, osc, rows, on_failure):
+    """function(members) for all N members of a family: array (*rows, N); on_failure : "raise", or "nan".
+
+    function : takes a slice or an index array (n,) of members, returns an array (*rows, n) or raises a DuffingError
+    """
+    if checks.choice("on_failure", on_failure, POLICIES) == "raise":
+        return function(slice(None))
+    from .sweep.failures import answers  # when it is asked for
+
+    return answers(function, osc, rows)
 
 
 def stroboscopic_times(osc, periods, transient=0, phase=0.0):

@@ -48,15 +48,10 @@ def lyapunov_spectrum(
     checks.count("transient", transient, least=0)
     state = checks.state(state, osc.shape)
     task = {"periods": periods, "transient": transient, "k": k, "method": method, "history": bool(history), **options}
-    run = {"block": block_members(**task), "executor": executor, "progress": progress, "checkpoint": checkpoint}
-    run |= {"on_failure": on_failure, "rows": (k, 2 + periods * bool(history))}
+    run = {"executor": executor, "progress": progress, "checkpoint": checkpoint, "on_failure": on_failure}
+    run |= {"block": block_for(transient + periods, method, **options), "rows": (k, 2 + periods * bool(history))}
     rows = over_blocks(_spectrum_rows, osc, state, task, **run).reshape(k, -1, *osc.shape)
     return LyapunovSpectrum(rows[:, 0], rows[:, 1], rows[:, 2:] if history else None)
-
-
-def block_members(periods=200, transient=40, **options):
-    """Members that `lyapunov_spectrum` with these options takes for a block of work, by what they roughly cost."""
-    return block_for(transient + periods, **options)
 
 
 def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d0=1e-8, steps_per_period=500):
@@ -69,7 +64,7 @@ def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d
     checks.positive("d0", d0)
     total = transient + checks.count("periods", periods)
     growth = two_trajectory_growth(osc, checks.state(state, osc.shape), total, d0=d0, steps_per_period=steps_per_period)
-    return _average(growth[None, transient:].reshape(1, periods, *osc.shape), osc.period)
+    return averages(growth[None, transient:].reshape(1, periods, *osc.shape), osc.period)
 
 
 def standard_error(samples):
@@ -95,12 +90,13 @@ def _spectrum_rows(osc, state, periods, transient, k, method, history, **options
     """Exponents, errors and, after them, the history: array (k, 2 or 2 + periods, N)."""
     t = stroboscopic_times(osc, transient + periods)
     growth = integrate(osc, state, t, tangents=k, method=method, **options).growth[:, transient:]
-    exponents, error, running = _average(growth, osc.period)
+    exponents, error, running = averages(growth, osc.period)
     return np.concatenate([exponents[:, None], error[:, None], *([running] if history else [])], axis=1)
 
 
-def _average(growth, period):
-    # growth: (k, periods, *family). The frame need not come out largest first over a finite time (a focus turns it).
+def averages(growth, period):
+    """The LyapunovSpectrum of what each period adds to the tangents' logarithms, growth (k, periods, *family)."""
+    # The frame need not come out largest first over a finite time (a focus turns it).
     history = np.cumsum(growth, axis=1) / (np.arange(1, growth.shape[1] + 1).reshape(-1, *[1] * (growth.ndim - 2)))
     history = history / period
     annihilated = np.isneginf(history[:, -1])

@@ -5,14 +5,11 @@ in the chapters is what is plotted. All quantities are dimensionless. Every func
 delta < 0 < gamma, and DivergedError where the value leaves the range of doubles.
 """
 
-from dataclasses import replace
-
 import mpmath
 import numpy as np
 
 from . import checks
 from .arithmetic import library, within_range
-from .errors import ConvergenceError
 
 
 @within_range
@@ -29,10 +26,11 @@ def homoclinic_orbit(osc, t, side=1):
     t = checks.parameter("t", t)
     lib = library(osc.delta, osc.gamma, t)
     x = side * lib.sqrt(-2 * osc.delta / osc.gamma) * lib.sech(lib.sqrt(-osc.delta) * t)
-    return _over_family(osc, x, t), _over_family(osc, side * _loop_velocity(osc, t, lib), t)
+    return _over_family(osc, x, t), _over_family(osc, side * loop_velocity(osc, t, lib), t)
 
 
-def _loop_velocity(osc, t, lib):
+def loop_velocity(osc, t, lib):
+    """v* of Eq. 8 on the right loop by the functions of `lib`, nothing checked: for those who need it many times."""
     u = lib.sqrt(-osc.delta) * t
     return lib.sqrt(2 / osc.gamma) * osc.delta * lib.tanh(u) * lib.sech(u)
 
@@ -92,93 +90,9 @@ def least_critical_frequency(osc):
     return np.broadcast_to(2 * np.sqrt(-osc.delta) * u / np.pi, osc.shape)
 
 
-def melnikov_quadrature(osc, t0, digits=50):
-    """M(t0) of Eq. 9 from its definition, by mpmath sums: nothing of the closed forms above is used.
-
-    For one oscillator (no family). The error is less than 10^-digits of the larger of the two terms, damping and
-    forcing, at every omega and p.
-
-    The work of the damping, whose integrand has a kink at t = 0, is summed on the half line by the double exponential
-    rule (Takahasi and Mori 1974). The work of the forcing is that of an analytic function on the whole line, for which
-    the trapezoidal rule errs by its values at the frequencies 2 pi / h - omega (Poisson): the step h follows from omega
-    and the orbit's nearest singularity, i pi / (2 sqrt(-delta)), and so do the digits that the oscillation cancels.
-
-    Raises ValueError for invalid input, ConvergenceError where two sums with other nodes do not agree to the digits.
-    """
-    checks.double_well(checks.single(osc))
-    checks.number("t0", t0)
-    checks.count("digits", digits)
-    with mpmath.workdps(digits + 20):
-        exact = replace(osc, alpha=mpmath.mpf(osc.alpha))
-        damping, its_error = _half_line_sum(lambda t: _power_taken(exact, t), digits)
-        forcing, error = _whole_line_sum(exact, t0, digits, damping) if exact.mu else (mpmath.mpf(0), mpmath.mpf(0))
-        larger = max(abs(damping), abs(forcing))
-        if its_error + error > mpmath.mpf(10) ** -digits * larger:
-            reached = mpmath.nstr((its_error + error) / larger, 2)
-            raise ConvergenceError(f"digits = {digits}: the sums agree to a part in {reached} of the larger term only")
-        return forcing - damping
-
-
-def _power_taken(osc, t):
-    # The two halves of the loop take the same, and v < 0 on this one.
-    v = _loop_velocity(osc, t, mpmath)
-    return 2 * osc.alpha * abs(v) ** (osc.p + 1)
-
-
-def _half_line_sum(function, digits):
-    """Integral from 0 to infinity of a function that decays exponentially, and the change of the last refinement."""
-    least = mpmath.mpf(10) ** -(digits + 10)
-
-    def terms(first, step):
-        # t = exp(u - exp(-u)): away from the middle in both directions until nothing more is added.
-        total = mpmath.mpf(0)
-        for direction in (1, -1):
-            u = first if direction == 1 else first - step
-            largest = mpmath.mpf(0)
-            while True:
-                t = mpmath.exp(u - mpmath.exp(-u))
-                term = function(t) * t * (1 + mpmath.exp(-u)) if t else mpmath.mpf(0)
-                total += term
-                largest = max(largest, term)
-                if abs(u) > 1 and term <= least * largest:
-                    break
-                u += direction * step
-        return total * step
-
-    step = mpmath.mpf(1) / 4
-    value = terms(mpmath.mpf(0), step)
-    for _ in range(8):
-        finer = (value + terms(step / 2, step)) / 2
-        change, value, step = abs(finer - value), finer, step / 2
-        if change <= mpmath.mpf(10) ** -(digits + 2) * value:
-            break
-    return value, change
-
-
-def _whole_line_sum(osc, t0, digits, damping):
-    """Integral of v* mu cos(omega (t + t0)), and half the difference of the sums at the nodes and between them."""
-    rate = mpmath.sqrt(-osc.delta)
-    # Decimals below v*: those that the oscillation cancels, but no more than the other term leaves visible.
-    cancelled = osc.omega * mpmath.pi / 2 / rate / mpmath.log(10)
-    hidden = mpmath.log10(osc.mu / damping) if damping else cancelled
-    decimals = digits + 15 + max(0, int(min(cancelled, hidden)))
-    with mpmath.workdps(decimals):
-        logarithm = decimals * mpmath.log(10)
-        h = 2 * mpmath.pi / (osc.omega + 2 * rate * logarithm / mpmath.pi)
-        nodes = int(logarithm / rate / h) + 1
-        sine = mpmath.sin(osc.omega * t0)
-
-        # v* is odd: the two half lines add up with sin(omega t) sin(omega t0), and the cosines cancel.
-        def total(shift):
-            times = ((k + shift) * h for k in range(nodes + 1))
-            terms = (_loop_velocity(osc, t, mpmath) * mpmath.sin(osc.omega * t) for t in times)
-            return -2 * h * sine * mpmath.fsum(terms)
-
-        at, between = (osc.mu * total(mpmath.mpf(shift)) for shift in (0, 0.5))
-        return (at + between) / 2, abs(at - between) / 2
-
-
 def _over_family(osc, value, t=0.0):
     # A field that a formula does not use still belongs to the family, whose shape is promised.
     shape = np.broadcast_shapes(osc.shape, np.shape(t))
-    return np.array(np.broadcast_to(value, shape)) if shape else value
+    if shape:
+        return np.array(np.broadcast_to(value, shape))
+    return value.item() if isinstance(value, np.generic) else value  # a number that shows itself as one

@@ -23,7 +23,7 @@ def context():
 def marks(osc, state, threads, log=None):
     """Three rows that say which member is where; one line of the log a block."""
     if log is not None:
-        with open(log, "a") as file:
+        with open(log, "a", encoding="utf-8") as file:
             file.write(f"{osc.mu[0]!r} {osc.p[0]!r} {state.shape[1]}\n")
     return np.stack([osc.mu, osc.p, state[0] + threads * 0])
 

@@ -6,6 +6,7 @@ folders; a new module takes part by being in one.
 
 import ast
 import inspect
+import re
 import subprocess
 import sys
 from importlib import import_module
@@ -131,6 +132,43 @@ def test_nothing_takes_a_private_name_from_another_room():
                 base = ".".join(name.split(".")[: -node.level]) if node.level else ""
                 source = ".".join(filter(None, (base, node.module)))
                 assert room(source) == room(name) or source == room(name), (name, source)
+
+
+# Kernels shown or taken apart: coefficients against their conditions, steps of an algorithm one by one.
+INSIDE_OF_KERNELS = {
+    ("speed.md", "friction_time._slopes"),
+    ("speed.md", "rk4._stage"),
+    ("test_forcing.py", "forcing._cosine_of_turns"),
+    ("test_friction.py", "_A"),
+    ("test_friction.py", "_C"),
+    ("test_tangency.py", "_highest"),
+    ("test_tangency.py", "_split"),
+    ("test_vectors.py", "dop853._combine"),
+}
+
+
+def private_names(text):
+    """What code takes from the project under a private name: by "from duffing.x import _y", or by "x._y"."""
+    tree, modules, found = ast.parse(text), set(), set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] in ("duffing", "book"):
+            modules |= {alias.asname or alias.name for alias in node.names if f"{node.module}.{alias.name}" in PATHS}
+            found |= {alias.name for alias in node.names if alias.name.startswith("_")}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in modules:
+            found |= {f"{node.value.id}.{node.attr}"} if re.match("_[^_]", node.attr) else set()
+    return found
+
+
+def test_chapters_tests_and_tools_use_public_names():
+    paths = [path for room in ("tests", "tools") for path in (ROOT / room).rglob("*.py")]
+    texts = {path: path.read_text(encoding="utf-8") for path in paths}
+    for path in (ROOT / "chapters").rglob("*.md"):
+        # After a cell's options, between two rules or a line each.
+        cell = r"^```\{code-cell\}[^\n]*\n(?:---\n.*?^---\n|(?::[^\n]*\n)*)(.*?)^```"
+        texts[path] = "".join(re.findall(cell, path.read_text(encoding="utf-8"), re.M | re.S))
+    found = {(path.name, name) for path, text in texts.items() for name in private_names(text)}
+    assert found <= INSIDE_OF_KERNELS
 
 
 def test_public_names_are_sorted_and_importable():

@@ -18,7 +18,7 @@ import archive  # noqa: E402 - its folder is put on the path above
 def root(tmp_path):
     (tmp_path / "_build" / "html" / "chapters").mkdir(parents=True)
     for name in (*archive.BESIDE, "_build/html/index.html", "_build/html/chapters/model.html"):
-        (tmp_path / name).write_text(f"this is {name}\n")
+        (tmp_path / name).write_text(f"this is {name}\n", encoding="utf-8")
     return tmp_path
 
 
@@ -28,7 +28,7 @@ def test_files_of_another_day_give_the_same_archive(root, tmp_path):
         os.utime(path, (0, 0))
         path.chmod(0o600)
     assert archive.pack(archive.contents(root), tmp_path / "second.zip") == first
-    (root / "LICENSE").write_text("another\n")
+    (root / "LICENSE").write_text("another\n", encoding="utf-8")
     assert archive.pack(archive.contents(root), tmp_path / "third.zip") != first
 
 

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from book.studies import basins as basin_study
+from book.studies.accuracy import STATISTICS
 from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency
 from duffing.basins.basins import KINDS
 from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.basins.contact import first_contact, homoclinic_strips
-from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT
+from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT, classify
 
 RK4 = {"method": "rk4", "steps_per_period": 200}
 
@@ -131,5 +132,12 @@ def test_the_section_shows_wells_chaos_and_the_large_orbit_at_small_p():
     np.testing.assert_array_equal(fates[:2, 0], [LEFT, RIGHT])
     assert IRREGULAR in fates[:, 1]
     osc = replace(basin_study.oscillator(0.1, mu=0.27), p=0.1)
-    large = basin_study.fate(osc, (1.3, 1.38), 40, last=16, **basin_study.FRICTION_TIME)
+    large = classify(osc, (1.3, 1.38), 40, last=16, **STATISTICS)
     assert large == LARGE
+
+
+def test_the_dimension_counted_near_a_tangency_solves_its_sum():
+    """4 (l^(-nd) + l^(-(n + 1)d) + ...) = 1 with n = ln(1/distance)/ln(l): here n = 2, l = 10, the sum term by term."""
+    d = basin_study.counted_dimension(1e-2, 10.0)
+    assert 4 * sum(10.0 ** (-n * d) for n in range(2, 400)) == pytest.approx(1.0)
+    assert basin_study.counted_dimension(1e-8, 10.0) < d < basin_study.counted_dimension(1e-1, 10.0)

@@ -1,6 +1,5 @@
 """The benchmarks' harness: a wrong answer is refused, ratios are what a fake clock makes them. No time is tested."""
 
-import json
 import sys
 from pathlib import Path
 
@@ -143,7 +142,7 @@ def test_the_check_of_the_sweep_refuses_a_scheme_with_another_step():
 
 
 def test_the_stored_record_says_when_where_and_with_what_it_was_measured():
-    record = json.loads((ROOT / "benchmarks" / "results.json").read_text(encoding="utf-8"))
+    record = measured.record()
     assert record["date"].endswith("UTC") and record["processor"] and record["rounds"] >= 3
     assert {"python", "numpy", "scipy", "numba"} <= record["versions"].keys()
     for p in ("0.1", "1"):
@@ -192,5 +191,5 @@ def test_the_pages_curves_of_growth_are_those_that_have_an_axis():
 
 
 def test_the_page_finds_the_c_program_in_the_stored_record():
-    names, medians = measured.medians(measured.record(ROOT / "benchmarks" / "results.json"))
+    names, medians = measured.medians(measured.record())
     assert np.isfinite(medians[0.1][names.index(measured.C_OVER_LANES)])

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from duffing import ConvergenceError, Duffing, poincare_section
-from duffing.orbits.bifurcations import FLIP, FOLD, bifurcations, loci, orbit_branches, switched
+from duffing.orbits.bifurcations import FLIP, FOLD, bifurcation_curves, bifurcations, orbit_branches, switch_branches
 from duffing.orbits.periodic import half_return, periodic_orbit, periodic_orbits
 
 P = (0.1, 1.0)
@@ -102,7 +102,7 @@ def test_brute_force_stays_below_the_fold_and_leaves_the_well_above_it(found):
 
 
 def test_at_a_period_doubling_the_multiplier_crosses_minus_1_and_a_doubled_orbit_is_born(in_well, found):
-    doubled = switched([flaws[2] for flaws in found], bounds=(0.04, 0.3), points=12, largest=0.02)
+    doubled = switch_branches([flaws[2] for flaws in found], bounds=(0.04, 0.3), points=12, largest=0.02)
     for branch, flaws, whole in zip(doubled, found, in_well, strict=True):
         flip = flaws[2]
         before, after = (whole.multipliers[:, flip.index + k].real for k in (0, 1))
@@ -117,7 +117,7 @@ def test_at_a_period_doubling_the_multiplier_crosses_minus_1_and_a_doubled_orbit
 
 def test_brute_force_finds_the_doubled_orbit_beyond_the_period_doubling(found):
     flip = found[1][2]
-    (branch,) = switched([flip], bounds=(0.04, 0.3), points=6, largest=0.02)
+    (branch,) = switch_branches([flip], bounds=(0.04, 0.3), points=6, largest=0.02)
     osc = Duffing(*branch.osc.columns()[:, 2])
     late = poincare_section(osc, branch.state[:, 2] + 1e-4, 2, transient=1500)
     np.testing.assert_allclose(late[:, 1], branch.state[:, 2], atol=1e-7)
@@ -133,14 +133,14 @@ def test_flip_of_the_half_map_breaks_the_symmetry():
     assert flip.kind == FLIP
     whole = half_return(flip.osc, flip.state, 2).derivative[:, :, 0]
     np.testing.assert_allclose(whole @ flip.direction, flip.direction, atol=1e-6)
-    (broken,) = switched([flip], field="omega", bounds=(0.5, 1.1), points=5)
+    (broken,) = switch_branches([flip], field="omega", bounds=(0.5, 1.1), points=5)
     assert np.all(np.hypot(*(half_return(broken.osc, broken.state, 1).image - broken.state)) > 1e-3)
     np.testing.assert_allclose(half_return(broken.osc, broken.state, 2).image, broken.state, atol=1e-8)
 
 
 def test_locus_in_the_cubic_stiffness_is_the_exact_scaling(found):
     """With linear damping x = gamma^(-1/2) X leaves mu sqrt(gamma) as the only parameter: mu ~ gamma^(-1/2)."""
-    curves = loci(found[1], second="gamma", bounds=(0.5, 1.0 + 1e-9), direction=-1, largest=0.2)
+    curves = bifurcation_curves(found[1], second="gamma", bounds=(0.5, 1.0 + 1e-9), direction=-1, largest=0.2)
     for curve, one in zip(curves, found[1], strict=True):
         assert curve.parameter[-1] == 0.5
         np.testing.assert_allclose(curve.u[2], one.osc.mu * curve.parameter**-0.5, rtol=1e-6)
@@ -148,7 +148,7 @@ def test_locus_in_the_cubic_stiffness_is_the_exact_scaling(found):
 
 
 def test_locus_in_p_leads_to_the_bifurcations_found_there_directly(found):
-    curves = loci(found[1], bounds=(P[0], 1.1), direction=-1, largest=0.2)
+    curves = bifurcation_curves(found[1], bounds=(P[0], 1.1), direction=-1, largest=0.2)
     for curve, direct in zip(curves, found[0], strict=True):
         assert curve.parameter[-1] == P[0]
         assert curve.u[2, -1] == pytest.approx(float(direct.osc.mu), abs=1e-7)

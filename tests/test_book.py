@@ -134,12 +134,16 @@ def sphinx_build(source, pages, config):
     """Build a small book of reStructuredText pages; returns its HTML (page -> text), exit code and complaints."""
     source.mkdir(exist_ok=True)
     head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\nnumfig = True\nnumfig_secnum_depth = 0\n"
-    (source / "conf.py").write_text(head + textwrap.dedent(config))
+    (source / "conf.py").write_text(head + textwrap.dedent(config), encoding="utf-8")
     for name, text in pages.items():
-        (source / f"{name}.rst").write_text(textwrap.dedent(text))
+        (source / f"{name}.rst").write_text(textwrap.dedent(text), encoding="utf-8")
     command = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "-n", "--keep-going", source, source / "html"]
-    run = subprocess.run(command, capture_output=True, text=True)
-    return {path.stem: path.read_text() for path in (source / "html").glob("*.html")}, run.returncode, run.stderr
+    run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    return (
+        {path.stem: path.read_text(encoding="utf-8") for path in (source / "html").glob("*.html")},
+        run.returncode,
+        run.stderr,
+    )
 
 
 INDEX = """
@@ -187,7 +191,9 @@ NUMBERED = """
 @pytest.fixture
 def picture(tmp_path):
     (tmp_path / "book").mkdir()
-    (tmp_path / "book" / "dot.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>')
+    (tmp_path / "book" / "dot.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', encoding="utf-8"
+    )
     return "dot.svg"
 
 
@@ -268,13 +274,15 @@ cache_depends_on = ["duffing/**/*.py"]
 
 def test_an_edit_of_the_package_runs_all_chapters_of_a_cell_its_own_and_of_prose_none(tmp_path):
     (tmp_path / "duffing").mkdir()
-    (tmp_path / "duffing" / "model.py").write_text("x = 1")
-    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n{CACHED}")
-    (tmp_path / "index.md").write_text(PAGE.replace("Prose.", "```{toctree}\nsecond\n```\n\nProse."))
-    (tmp_path / "second.md").write_text(PAGE)
+    (tmp_path / "duffing" / "model.py").write_text("x = 1", encoding="utf-8")
+    (tmp_path / "conf.py").write_text(
+        f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n{CACHED}", encoding="utf-8"
+    )
+    (tmp_path / "index.md").write_text(PAGE.replace("Prose.", "```{toctree}\nsecond\n```\n\nProse."), encoding="utf-8")
+    (tmp_path / "second.md").write_text(PAGE, encoding="utf-8")
     environment = os.environ | {"IPYTHONDIR": str(tmp_path / "ipython")}
     command = [sys.executable, "-c", REBUILDS]
-    run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, encoding="utf-8")
     builds = [line.split() for line in run.stdout.splitlines()]
     assert [code for code, *_ in builds] == ["0"] * 4, run.stderr
     first, prose, cell, package = (ran for _, ran, _, _, _ in builds)
@@ -288,13 +296,15 @@ def test_an_edit_of_the_package_runs_all_chapters_of_a_cell_its_own_and_of_prose
 
 def test_what_ran_while_the_package_was_edited_is_not_stored(tmp_path):
     (tmp_path / "duffing").mkdir()
-    (tmp_path / "duffing" / "model.py").write_text("x = 1")
-    (tmp_path / "conf.py").write_text(f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n{CACHED}")
+    (tmp_path / "duffing" / "model.py").write_text("x = 1", encoding="utf-8")
+    (tmp_path / "conf.py").write_text(
+        f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n{CACHED}", encoding="utf-8"
+    )
     edit = 'from pathlib import Path\nPath("duffing/model.py").write_text("x = 2")\n'
-    (tmp_path / "index.md").write_text(PAGE.replace("import time\n", edit + "import time\n"))
+    (tmp_path / "index.md").write_text(PAGE.replace("import time\n", edit + "import time\n"), encoding="utf-8")
     command = [sys.executable, "-m", "sphinx", "-q", "-b", "html", ".", "_build/html"]
     environment = os.environ | {"IPYTHONDIR": str(tmp_path / "ipython")}
-    run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, encoding="utf-8")
     assert run.returncode != 0
     assert "changed while a chapter ran: build again" in run.stderr
     assert not list(tmp_path.glob("_build/cache/*/executed/**/*.ipynb"))
@@ -306,19 +316,19 @@ def test_the_key_of_the_execution_cache_changes_with_the_package_and_the_environ
     package.mkdir()
     seen = [cache_key.key(tmp_path, depends_on)]
     for change in (
-        lambda: (package / "a.py").write_text("x = 1\n"),
-        lambda: (package / "a.py").write_text("x = 2\n"),
+        lambda: (package / "a.py").write_text("x = 1\n", encoding="utf-8"),
+        lambda: (package / "a.py").write_text("x = 2\n", encoding="utf-8"),
         lambda: (package / "a.py").rename(package / "b.py"),
-        lambda: (package / "paper.mplstyle").write_text("lines.linewidth: 2\n"),
-        lambda: (tmp_path / "environment.txt").write_text("numpy==2.0\n"),
+        lambda: (package / "paper.mplstyle").write_text("lines.linewidth: 2\n", encoding="utf-8"),
+        lambda: (tmp_path / "environment.txt").write_text("numpy==2.0\n", encoding="utf-8"),
     ):
         change()
         seen.append(cache_key.key(tmp_path, depends_on))
     assert len(set(seen)) == len(seen)
     (tmp_path / "chapters").mkdir()
-    (tmp_path / "chapters" / "model.md").write_text("prose\n")
+    (tmp_path / "chapters" / "model.md").write_text("prose\n", encoding="utf-8")
     (package / "__pycache__").mkdir()
-    (package / "__pycache__" / "b.pyc").write_text("compiled")
+    (package / "__pycache__" / "b.pyc").write_text("compiled", encoding="utf-8")
     assert cache_key.key(tmp_path, depends_on) == seen[-1]
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from duffing import ConvergenceError, Duffing, critical_amplitude, saddle_orbit
 from duffing.basins.boundary import Crossings, boundary_dimension, crossings, line_of_starts, neighbourhood
-from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT, fate
+from duffing.basins.fates import IRREGULAR, LARGE, LEFT, RIGHT, classify
 
 RK4 = {"method": "rk4", "steps_per_period": 96}
 AXIS = ((-1.5, 0.0), (1.5, 0.0))
@@ -59,7 +59,7 @@ def test_the_line_is_cut_where_the_fates_of_starts_on_it_change():
     middles = (found.left[1:] + found.right[:-1])[apart] / 2
     near = np.array([found.right[:-1][apart] + 5e-5, middles, found.left[1:][apart] - 5e-5])
     states = np.array([3 * near - 1.5, np.zeros_like(near)])
-    fates = fate(osc, states, 12, **RK4)
+    fates = classify(osc, states, 12, **RK4)
     assert len(apart) > 10
     assert np.all(fates == fates[0])
 
@@ -68,7 +68,7 @@ def test_the_neighbourhood_is_what_random_starts_find():
     osc = Duffing(mu=0.12)
     found, eps = crossings(line_of_starts(osc, *AXIS, **RK4), most=30_000), 1e-3
     s = np.random.default_rng(7).uniform(0, 1, 3000)
-    fates = [fate(osc, np.array([3 * (s + d) - 1.5, 0 * s]), 12, **RK4) for d in np.linspace(-eps, eps, 9)]
+    fates = [classify(osc, np.array([3 * (s + d) - 1.5, 0 * s]), 12, **RK4) for d in np.linspace(-eps, eps, 9)]
     counted = np.mean(np.any(fates != fates[0], axis=0))
     # Nine starts between -eps and eps see most of the strips, not the thinnest.
     assert 0.7 * neighbourhood(found, eps)[0] < counted < 1.05 * neighbourhood(found, eps)[0]
@@ -104,14 +104,16 @@ def test_too_few_starts_leave_no_decade_and_it_is_said():
 
 def test_fates_are_those_of_motions_that_are_known():
     starts = np.array([[-1.0, 1.0, 0.0], [0.1, 0.0, 2.0]])
-    np.testing.assert_array_equal(fate(Duffing(), starts, **RK4), [LEFT, RIGHT, RIGHT])  # the last by its path below
-    assert fate(Duffing(alpha=0.4, mu=2.0, delta=1.0, gamma=0.0), (1.0, 0.0), **RK4) == LARGE
-    assert fate(Duffing(alpha=0.25, mu=0.4), (1.0, 0.0), **RK4) == IRREGULAR
+    np.testing.assert_array_equal(
+        classify(Duffing(), starts, **RK4), [LEFT, RIGHT, RIGHT]
+    )  # the last by its path below
+    assert classify(Duffing(alpha=0.4, mu=2.0, delta=1.0, gamma=0.0), (1.0, 0.0), **RK4) == LARGE
+    assert classify(Duffing(alpha=0.25, mu=0.4), (1.0, 0.0), **RK4) == IRREGULAR
 
 
 def test_fates_of_a_family_are_those_of_its_members():
     mu, omega, starts = np.array([0.05, 0.3]), np.array([1.0, 0.9]), np.array([[0.9, -0.8], [0.2, 0.3]])
-    together = fate(Duffing(mu=mu, omega=omega), starts, **RK4)
-    alone = [fate(Duffing(mu=m, omega=w), start, **RK4) for m, w, start in zip(mu, omega, starts.T, strict=True)]
+    together = classify(Duffing(mu=mu, omega=omega), starts, **RK4)
+    alone = [classify(Duffing(mu=m, omega=w), start, **RK4) for m, w, start in zip(mu, omega, starts.T, strict=True)]
     np.testing.assert_array_equal(together, alone)
-    np.testing.assert_array_equal(fate(Duffing(mu=mu), starts, **RK4)[0], together[0])
+    np.testing.assert_array_equal(classify(Duffing(mu=mu), starts, **RK4)[0], together[0])

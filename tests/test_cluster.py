@@ -29,20 +29,6 @@ def client():
         yield client
 
 
-@pytest.fixture(autouse=True)
-def patience():
-    """A cluster without workers waits for ever: a test does not."""
-
-    def give_up(number, frame):
-        raise TimeoutError("the cluster has not answered for five minutes")
-
-    before = signal.signal(signal.SIGALRM, give_up)
-    signal.alarm(300)
-    yield
-    signal.alarm(0)
-    signal.signal(signal.SIGALRM, before)
-
-
 @pytest.mark.parametrize("method", ["auto", "rk4"])
 def test_exponents_are_bit_for_bit_those_computed_here(method, client, monkeypatch):
     osc = Duffing(p=np.array([[0.5], [1.0]]), mu=np.linspace(0.1, 0.3, 21))
@@ -94,17 +80,19 @@ def test_a_block_that_goes_on_killing_its_worker_is_named(client):
 
 
 def test_the_program_in_the_chapter_gives_the_same_bits(tmp_path):
-    text = (Path(__file__).parents[1] / "chapters" / "scale.md").read_text()
-    first_cell = re.search(r"^```\{code-cell\}[^\n]*\n(.*?)^```", text, re.S | re.M)[1]
+    text = (Path(__file__).parents[1] / "chapters" / "scale.md").read_text(encoding="utf-8")
+    # The imports and the call: the first two cells.
+    shown = re.findall(r"^```\{code-cell\}[^\n]*\n(?::tags:[^\n]*\n)?(.*?)^```", text, re.S | re.M)[:2]
     (program,) = re.findall(
         r"^```python\n(from dask.distributed import Client, LocalCluster\n.*?)^```", text, re.S | re.M
     )
     script = tmp_path / "program.py"
-    # The first cell stands under the guard, too: workers import the program.
-    guarded = "".join(f"    {line}\n" for line in first_cell.splitlines())
+    # The cells stand under the guard, too: workers import the program.
+    guarded = "".join(f"    {line}\n" for cell in shown for line in cell.splitlines())
     script.write_text(
         f"import sys\nif __name__ == '__main__':\n{guarded}{program}"
-        "    print(np.array_equal(there, here), there.shape, np.unique(there).size)\n"
+        "    print(np.array_equal(there, here), there.shape, np.unique(there).size)\n",
+        encoding="utf-8",
     )
-    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120, encoding="utf-8")
     assert done.stdout == "True (1, 10, 100) 1000\n", done.stderr

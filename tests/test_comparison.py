@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from book.studies import comparison as comparison_study
 from book.studies import small_p
-from book.studies.transients import between
+from book.studies.transients import starts_between_wells
 from book.studies.wandering import dissipated_energy, mean_ratio, wandering
 from duffing import Duffing, critical_amplitude, lyapunov_spectrum
 
@@ -138,6 +138,14 @@ def test_equal_ratios_are_multiples_of_the_critical_amplitude():
 def test_compared_gives_the_wandering_of_each_forcing():
     mu, ratio, found = comparison_study.compared(1.0, (0.24, 0.26), columns=8, rows=4, periods=120)
     np.testing.assert_allclose(ratio, mu / critical_amplitude(Duffing(p=1.0)))
-    alone = wandering(Duffing(p=1.0, mu=np.array([0.26])), between(8, 4), 120, **STEP)
+    alone = wandering(Duffing(p=1.0, mu=np.array([0.26])), starts_between_wells(8, 4), 120, **STEP)
     assert found.exponent[1] == alone.exponent[0]
     assert found.share.shape == found.dissipated.shape == (2,)
+
+
+def test_the_fixed_step_raises_the_exponent_of_chaos_at_small_p():
+    by_step, exact = comparison_study.chaotic_exponents((0.268, 0.272), columns=6, rows=4)
+    change = by_step.exponent - exact.exponent
+    error = np.hypot(by_step.error, exact.error)
+    assert change.mean() > 3 * np.sqrt(np.sum(error**2)) / 2 > 0
+    assert change.mean() < 0.03

@@ -1,5 +1,6 @@
 """The disk cache of compiled code: used again while the package is the same, never after an edit."""
 
+import io
 import shutil
 import subprocess
 import sys
@@ -9,7 +10,7 @@ import numba
 import pytest
 
 import duffing
-from duffing.integrators.compiled import compiled, fingerprint
+from duffing.integrators.compiled import announced, compiled, fingerprint
 
 PACKAGE = Path(duffing.__file__).parent
 RUN = """
@@ -27,14 +28,14 @@ def test_the_cache_folder_changes_with_an_edit_of_compiled_code_and_with_no_othe
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     assert fingerprint(copy) == fingerprint()
     path = copy / f"{module}.py"
-    path.write_text(path.read_text() + "\n")
+    path.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
     assert (fingerprint(copy) != fingerprint()) == changes
 
 
 def test_every_module_with_compiled_code_counts(tmp_path):
     """A module that a kernel takes code from is compiled code itself, and says so by its imports."""
     for path in PACKAGE.rglob("*.py"):
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
         if "@compiled" in text or "njit" in text or "intrinsic" in text:
             assert "numba" in text or ".compiled import" in text, path.name
 
@@ -49,10 +50,10 @@ def test_an_edit_in_a_called_function_is_not_answered_from_the_cache(tmp_path):
 
     before = run()
     module = copy / "integrators" / "powers.py"
-    text = module.read_text()
-    edited = text.replace("return q.table[cell] *", "return 2 * q.table[cell] *")
+    text = module.read_text(encoding="utf-8")
+    edited = text.replace("return take(q.table, cell) *", "return 2 * take(q.table, cell) *")
     assert edited != text
-    module.write_text(edited)
+    module.write_text(edited, encoding="utf-8")
     assert abs(run() - before) > 1e-3
 
 
@@ -65,3 +66,17 @@ def test_compiling_leaves_the_callers_settings_alone():
 
     assert double(2.0) == 4.0
     assert before == numba.config.CACHE_DIR
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_kernel_that_compiles_for_long_says_so_once_and_on_a_terminal_only(terminal, monkeypatch):
+    @compiled
+    def twice(x):
+        return 2 * x
+
+    stream = io.StringIO()
+    stream.isatty = lambda: terminal
+    monkeypatch.setattr(sys, "stderr", stream)
+    announced(twice, "a function of the tests")
+    assert [twice(2.0), twice(3.0)] == [4.0, 6.0]
+    assert stream.getvalue().count("compiling a function of the tests") == terminal

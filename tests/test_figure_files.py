@@ -141,9 +141,9 @@ nb_execution_cache_path = "_build/cache"
 
 def test_a_figure_is_offered_under_its_number_with_its_data_the_same_bytes_from_the_cache(tmp_path):
     (tmp_path / "part").mkdir()
-    (tmp_path / "conf.py").write_text(CONF)
-    (tmp_path / "index.md").write_text("# Front\n\n```{toctree}\npart/page\n```\n")
-    (tmp_path / "part" / "page.md").write_text(PAGE)
+    (tmp_path / "conf.py").write_text(CONF, encoding="utf-8")
+    (tmp_path / "index.md").write_text("# Front\n\n```{toctree}\npart/page\n```\n", encoding="utf-8")
+    (tmp_path / "part" / "page.md").write_text(PAGE, encoding="utf-8")
     environment = os.environ | {"IPYTHONDIR": str(tmp_path / "ipython"), "PYTHONPATH": str(BOOK)}
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "-E", "-b", "html", ".", "_build/html"]
     figures = tmp_path / "_build" / "html" / "figures"
@@ -151,12 +151,12 @@ def test_a_figure_is_offered_under_its_number_with_its_data_the_same_bytes_from_
     for _ in range(2):
         subprocess.run(command, cwd=tmp_path, env=environment, check=True)
         seen.append({path.name: path.read_bytes() for path in figures.iterdir()})
-        (figures / "fig9.svg").write_text("left by an earlier book")
+        (figures / "fig9.svg").write_text("left by an earlier book", encoding="utf-8")
     assert seen[0] == seen[1]
     assert set(seen[0]) == {"fig4a.svg", "fig4a.png", "fig4a.csv"}
     assert seen[0]["fig4a.csv"].decode().splitlines()[-1] == '1,"series 2",1,2,'
     assert seen[0]["fig4a.png"].startswith(b"\x89PNG")
-    page = (tmp_path / "_build" / "html" / "part" / "page.html").read_text()
+    page = (tmp_path / "_build" / "html" / "part" / "page.html").read_text(encoding="utf-8")
     for name in seen[0]:
         assert f'href="../figures/{name}"' in page
     notebook = nbformat.read(tmp_path / "_build" / "jupyter_execute" / "part" / "page.ipynb", as_version=4)

@@ -17,7 +17,7 @@ def _periods(osc, n):
 def test_forcing_has_the_cosines_at_the_ends_and_middles_of_the_steps():
     columns, t = Duffing(omega=1.3, mu=np.zeros(11)).columns(), np.array([[0.2], [1.1], [4.0]])
     seen = []
-    forcing.in_blocks(lambda *block: seen.append(block), columns, t, 20, 1, 8, 4)
+    forcing.map_chunks(lambda *block: seen.append(block), columns, t, 20, 1, 8, 4)
     assert [members.tolist() for members, *_ in seen] == [list(range(8)), [8, 9, 10]]
     assert [padded.tolist() for _, padded, *_ in seen] == [list(range(8)), [8, 9, 10, 8]]
     for _, padded, h, law, (cosines, offsets, counts) in seen:

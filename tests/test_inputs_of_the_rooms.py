@@ -41,7 +41,7 @@ CALLS = {
     "manifolds.curves.stable_manifold": CURVE,
     "melnikov.damping_integral": {"osc": OSC},
     "melnikov.forcing_integral": {"osc": OSC},
-    "melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
+    "book.studies.melnikov.melnikov_quadrature": {"osc": OSC, "t0": 0.5, "digits": 10},
     "manifolds.sticking.sticking_amplitude": {"osc": OSC},
     "manifolds.correction.tangency_correction": {"osc": Duffing(p=0.5)},
     "orbits.periodic.half_return": ORBIT,
@@ -70,7 +70,11 @@ CALLS = {
     "transients.crisis.crisis": {
         "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "upper": 0.26, "outer": OUTER, "steps": 1, "points": 200
     },
-    "basins.fates.fate": {"osc": OSC, "states": START, "periods": 6, "last": 4},
+    "transients.crisis.crisis_above": {
+        "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "outer": OUTER, "step": 0.02, "tries": 1, "steps": 1,
+        "points": 100
+    },
+    "basins.fates.classify": {"osc": OSC, "states": START, "periods": 6, "last": 4},
     "transients.lifetimes.lifetimes": {
         "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
         "tangents": 0,
@@ -86,17 +90,18 @@ CALLS = {
 }  # an entry a line, or two  # fmt: skip
 # Those that take what another one gave, or what a caller inside the package has checked.
 WITHIN = {
-    "orbits": "bifurcations correct curves follow_branches loci marks at_exponent multipliers_of orbits_at side_by_side"
-    " switched",
-    "basins": "boundary_dimension capture changed contracted_form look ordered neighbourhood points_of read trap",
-    "transients": "both_wells edge_distance returns",
+    "orbits": "bifurcations bifurcation_curves correct curves follow_branches marks at_exponent multipliers_of"
+    " orbits_at side_by_side switch_branches",
+    "basins": "boundary_dimension capture changed classify_path contracted_form first_capture ordered neighbourhood"
+    " points_of trap",
+    "transients": "beyond both_wells edge_distance returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
 STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
 POINT = BAD["state"]
 SOME = [bad for bad in STATES if bad is not None]  # None: a grid of them
 WRONG = BAD | {
-    **{key: POSITIVE for key in ("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least")},
+    **{key: POSITIVE for key in ("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least", "step")},
     **{
         key: [0, *COUNTS]
         for key in (
@@ -110,6 +115,7 @@ WRONG = BAD | {
             "resamples",
             "digits",
             "steps",
+            "tries",
             "points",
         )
     },
@@ -140,7 +146,8 @@ OTHERWISE = {
 
 def call(name, **arguments):
     module, _, function = name.rpartition(".")
-    return getattr(import_module(f"duffing.{module}"), function)(**{**CALLS[name], **arguments})
+    place = module if module.startswith("book.") else f"duffing.{module}"
+    return getattr(import_module(place), function)(**{**CALLS[name], **arguments})
 
 
 @pytest.mark.parametrize("room", [orbits, basins, transients])
@@ -171,7 +178,8 @@ def test_what_an_argument_cannot_be_is_refused_by_its_name(name, argument):
 
 
 SINGLE = (
-    "manifolds.curves.unstable_manifold", "melnikov.melnikov_quadrature", "orbits.periodic.periodic_orbits",
+    "book.studies.melnikov.melnikov_quadrature",
+    "manifolds.curves.unstable_manifold", "orbits.periodic.periodic_orbits",
     "basins.attractors.find_attractors", "basins.attractors.settle", "basins.basins.basins",
     "basins.boundary.line_of_starts", "basins.contact.homoclinic_strips", "basins.contact.first_contact",
     "transients.crisis.large_saddle",
@@ -190,7 +198,7 @@ ANY_OSCILLATOR = (
     "manifolds.correction.tangency_correction",
     "orbits.periodic.periodic_orbit", "orbits.periodic.periodic_orbits", "orbits.periodic.path",
     "orbits.diagram.bifurcation_diagram", "basins.attractors.find_attractors",
-    "basins.contact.homoclinic_strips", "basins.fates.fate", "transients.lifetimes.lifetimes",
+    "basins.contact.homoclinic_strips", "basins.fates.classify", "transients.lifetimes.lifetimes",
 )  # names in rows, not a column  # fmt: skip
 
 

@@ -26,15 +26,19 @@ from duffing import Duffing, lyapunov_spectrum
 def started(done, total):
     print("started", flush=True)
 
-def run(executor):
+def run(executor, progress=started):
     osc = Duffing(p=0.1, mu=np.linspace(0.1, 0.3, 100_000))
-    lyapunov_spectrum(osc, method="rk4", executor=executor, progress=started, history=False)
+    lyapunov_spectrum(osc, method="rk4", executor=executor, progress=progress, history=False)
 
 if __name__ == "__main__":
     kind = sys.argv[1]
     processes = partial(ProcessPoolExecutor, 2, mp_context=get_context("spawn"))
     if kind == "threads":
         run(None)
+    elif kind == "pieces":
+        lyapunov_spectrum(Duffing(p=0.1, mu=0.2), periods=1, method="rk4")
+        threading.Timer(1.0, started, (0, 0)).start()  # in the midst of it
+        run(None, progress=None)
     elif kind == "whole":
         from duffing.basins.attractors import settle
         osc, states = Duffing(p=0.1, mu=0.27), np.random.default_rng(0).uniform(-1, 1, (2, 100_000))
@@ -67,6 +71,8 @@ def alive(group):
     [
         ("threads", "terminal"),
         ("threads", "kill"),
+        ("pieces", "kill"),
+        ("pieces", "terminal"),
         ("whole", "kill"),
         ("processes", "terminal"),
         ("function", "kill"),
@@ -76,10 +82,10 @@ def alive(group):
 def test_an_interrupt_ends_the_run_and_every_process_that_it_started(kind, whom, tmp_path):
     """A terminal interrupts all processes of the group, `kill` the first alone."""
     script = tmp_path / "script.py"
-    script.write_text(SCRIPT)
+    script.write_text(SCRIPT, encoding="utf-8")
     process = subprocess.Popen(
         [sys.executable, script, kind],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, encoding="utf-8",
     )  # what, and how  # fmt: skip
     try:
         assert process.stdout.readline() == "started\n"

@@ -7,8 +7,10 @@ import scipy.integrate
 import scipy.optimize
 import sympy as sp
 
-from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_orbit, melnikov, melnikov_function
-from duffing.melnikov import damping_integral, forcing_integral, least_critical_frequency, melnikov_quadrature
+from book.studies import melnikov
+from book.studies.melnikov import melnikov_quadrature
+from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_orbit, melnikov_function
+from duffing.melnikov import damping_integral, forcing_integral, least_critical_frequency
 
 ALPHA, P, MU, OMEGA, GAMMA = sp.symbols("alpha p mu omega gamma", positive=True)
 DELTA = sp.Symbol("delta", negative=True)
@@ -143,7 +145,7 @@ def test_quadrature_of_no_damping_and_no_forcing_is_zero():
 
 
 def test_quadrature_whose_sums_do_not_agree_is_a_named_error(monkeypatch):
-    monkeypatch.setattr(melnikov, "_loop_velocity", lambda osc, t, lib: lib.sech(t) * lib.cos(1e3 * t))
+    monkeypatch.setattr(melnikov, "loop_velocity", lambda osc, t, lib: lib.sech(t) * lib.cos(1e3 * t))
     with pytest.raises(ConvergenceError, match=r"^digits = 20: the sums agree to a part in"):
         melnikov_quadrature(Duffing(mu=0.3), 0.7, digits=20)
 
@@ -288,3 +290,9 @@ def test_times_that_are_not_finite_numbers_are_named():
             homoclinic_orbit(Duffing(), bad)
         with pytest.raises(ValueError, match=r"^t0 = "):
             melnikov_function(Duffing(), bad)
+
+
+def test_a_single_oscillators_numbers_are_pythons_own_and_show_themselves_as_numbers():
+    osc = Duffing(alpha=0.25, p=0.6)
+    for value in (critical_amplitude(osc), melnikov_function(osc, 0.3)):
+        assert type(value) is float

@@ -12,7 +12,7 @@ MUTANTS = runpy.run_path(ROOT / "tools" / "mutants.py")["MUTANTS"]
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: f"{mutant.module}: {mutant.what}")
 def test_the_error_can_be_put_into_the_code_at_one_place(mutant):
     path = ROOT / f"{mutant.module.replace('.', '/')}.py"
-    assert path.read_text().count(mutant.good) == 1
+    assert path.read_text(encoding="utf-8").count(mutant.good) == 1
     assert mutant.bad != mutant.good
 
 

@@ -13,7 +13,7 @@ from matplotlib.colors import to_hex
 
 from book.figures import paper as figures
 from book.figures import small_p as figures_small_p
-from book.studies import reproduction, small_p
+from book.studies import missing_parameters, reproduction, small_p
 from duffing import Duffing, critical_amplitude, homoclinic_orbit, paper
 from duffing.manifolds.curves import stable_manifold, unstable_manifold
 
@@ -168,7 +168,7 @@ def test_a_small_grid_of_mu_is_not_rounded_away():
         (lambda: reproduction.motion(0.2, every=0), r"^every = 0: must be a whole number >= 1"),
         (lambda: reproduction.motion(0.2, every=3), r"^every = 3: must divide 500"),
         (lambda: reproduction.motion(0.2, end=1.0), r"^end = 1.0: must be at least a period"),
-        (lambda: reproduction.parameter_scan(alphas=(0.1, 0.2, 0.0)), r"^step of alphas = 0.0: must be"),
+        (lambda: missing_parameters.plane(alpha_step=0.0), r"^alpha_step = 0.0: must be"),
     ],
 )
 def test_bad_grids_and_lengths_are_named(call, complaint):

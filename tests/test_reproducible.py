@@ -1,7 +1,9 @@
 """The comparison of two runs of the book: what it must find."""
 
+import os
 import sys
 from pathlib import Path
+from unittest import mock
 
 import nbformat.v4 as v4
 import pytest
@@ -66,13 +68,15 @@ def test_a_kernel_is_told_how_many_processors_it_has(tmp_path, monkeypatch):
     (tmp_path / "chapters").mkdir()
     front = "---\njupytext: {text_representation: {extension: .md, format_name: myst}}\n"
     front += "kernelspec: {name: python3, display_name: Python 3, language: python}\n---\n"
-    (tmp_path / "chapters" / "x.md").write_text(front + "\n```{code-cell} ipython3\nimport os\nos.cpu_count()\n```\n")
+    cell = "from duffing.integrators import processors\nprocessors.available()"
+    (tmp_path / "chapters" / "x.md").write_text(f"{front}\n```{{code-cell}} ipython3\n{cell}\n```\n", encoding="utf-8")
+    (tmp_path / "duffing").symlink_to(ROOT / "duffing")
     monkeypatch.setattr(reproducible, "ROOT", tmp_path)
-    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))  # put back after the test, which changes it
-    monkeypatch.setenv("JUPYTER_PREFER_ENV_PATH", "1")
-    for threads in (1, 3):
-        (shown,) = reproducible.run("chapters/x", threads, tmp_path).cells[-1].outputs
-        assert shown["data"]["text/plain"] == str(threads)
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    with mock.patch.dict(os.environ):  # put back after the test, which changes it
+        for threads in (1, 3):
+            (shown,) = reproducible.run("chapters/x", threads, tmp_path).cells[-1].outputs
+            assert shown["data"]["text/plain"] == str(threads)
 
 
 def test_a_run_is_compared_with_the_hashes_of_an_earlier_one(tmp_path, monkeypatch):

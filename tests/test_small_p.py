@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from book.studies import small_p
+from book.studies.accuracy import CURVES
 from duffing import ConvergenceError, lyapunov_spectrum, paper, trajectory
 
 
 def test_chaos_is_summed_up_by_the_statistics_of_its_positive_runs():
     found = small_p.chaos(columns=4, rows=2)
     family = replace(paper.OSCILLATOR, mu=np.full(8, 0.27))
-    runs = lyapunov_spectrum(family, small_p.starts(4, 2), 199, 40, k=1, **small_p.TOLERANCE).exponents[0]
+    runs = lyapunov_spectrum(family, small_p.starts(4, 2), 199, 40, k=1, **CURVES).exponents[0]
     runs = runs[runs > 0]
     assert found.runs == runs.size
     assert found.mean == pytest.approx(runs.mean())
@@ -27,7 +28,7 @@ def test_chaos_without_two_chaotic_runs_says_so():
 
 def test_exponents_of_a_periodic_orbit_are_those_of_a_long_average_and_obey_the_sum_rule():
     mu = (0.2, 0.29)
-    orbit = small_p.periodic_orbit(mu)
+    orbit = small_p.attracting_orbits(mu)
     average = lyapunov_spectrum(replace(paper.OSCILLATOR, mu=np.array(mu)), paper.START, 400, 200).exponents
     np.testing.assert_allclose(orbit.exponents, average, atol=2e-3)
     assert np.all(orbit.exponents[0] >= orbit.exponents[1])
@@ -35,7 +36,7 @@ def test_exponents_of_a_periodic_orbit_are_those_of_a_long_average_and_obey_the_
 
 
 def test_an_annihilated_direction_of_a_periodic_orbit_has_the_exponent_minus_infinity():
-    orbit = small_p.periodic_orbit((0.05,))
+    orbit = small_p.attracting_orbits((0.05,))
     assert orbit.friction_time[0] == np.inf
     assert orbit.exponents[1, 0] == -np.inf
     assert np.isfinite(orbit.exponents[0, 0])
@@ -53,7 +54,7 @@ def test_window_holds_each_start_at_each_forcing():
     mu, exponents = small_p.window(columns=2, rows=1, step=0.01, first=0.26, last=0.27, periods=20)
     np.testing.assert_allclose(mu, [0.26, 0.27])
     osc = replace(paper.OSCILLATOR, mu=0.27)
-    alone = lyapunov_spectrum(osc, small_p.starts(2, 1)[:, 1], 20, 40, k=1, **small_p.TOLERANCE)
+    alone = lyapunov_spectrum(osc, small_p.starts(2, 1)[:, 1], 20, 40, k=1, **CURVES)
     assert exponents.shape == (2, 2)
     assert exponents[1, 1] == alone.exponents[0]
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from sweep_cases import PLANE, context, diverges_at, marked, marks, starts
 
-from duffing import DivergedError, Duffing, blocks, lyapunov_spectrum
+from duffing import DivergedError, Duffing, blocks, lyapunov, lyapunov_spectrum
 from duffing.blocks import block_of, over_blocks
-from duffing.lyapunov import _average, _spectrum_rows
+from duffing.lyapunov import averages
 from duffing.sweep import families as sweep
 
 FAMILY = Duffing(p=np.array([[0.5], [1.0]]), mu=np.linspace(0.1, 0.3, 21))
@@ -53,20 +53,22 @@ def test_exponents_are_bit_for_bit_the_same_in_threads_and_in_processes(method, 
 
 @pytest.mark.parametrize("method", ["auto", "rk4"])
 @pytest.mark.parametrize("block", [1, 5, 42, 1000])
-def test_exponents_are_bit_for_bit_the_same_for_any_size_of_blocks(method, block):
-    options = {"periods": 9, "transient": 2, "k": 2, "method": method, "history": True}
-    state = np.repeat([[0.45], [0.1]], 42, axis=1)
-    whole = over_blocks(_spectrum_rows, FAMILY, state, options)
-    cut = over_blocks(_spectrum_rows, FAMILY, state, options, block=block, progress=lambda *call: None)
-    np.testing.assert_array_equal(cut, whole)
+def test_exponents_are_bit_for_bit_the_same_for_any_size_of_blocks(method, block, monkeypatch):
+    options, calls = {"periods": 9, "transient": 2, "method": method}, []
+    whole = lyapunov_spectrum(FAMILY, **options)
+    monkeypatch.setattr(lyapunov, "block_for", lambda *arguments, **options: block)
+    cut = lyapunov_spectrum(FAMILY, progress=lambda *call: calls.append(call), **options)
+    assert len(calls) == -(-42 // block)
+    for ours, same in zip(cut, whole, strict=True):
+        np.testing.assert_array_equal(ours, same)
 
 
 def test_the_averages_of_one_member_are_bit_for_bit_those_of_a_family():
     """NumPy's own mean sums in another order when there is one member: seen from some hundred periods on."""
     growth = np.random.default_rng(1).standard_normal((2, 400, 9))
-    family = _average(growth, 1.0)
+    family = averages(growth, 1.0)
     for i in range(9):
-        for alone, all_ in zip(_average(np.ascontiguousarray(growth[..., i : i + 1]), 1.0), family, strict=True):
+        for alone, all_ in zip(averages(np.ascontiguousarray(growth[..., i : i + 1]), 1.0), family, strict=True):
             np.testing.assert_array_equal(alone, all_[..., i : i + 1])
 
 
@@ -108,6 +110,12 @@ def test_a_small_family_is_left_whole_to_the_integrator_and_its_threads():
     calls.clear()
     over_blocks(note, PLANE, starts(PLANE), {"threads": 3}, block=6)
     assert sorted(calls) == [(4, 1), *[(6, 1)] * 6]
+
+
+def test_a_family_of_more_blocks_than_a_wave_comes_back_whole(monkeypatch):
+    monkeypatch.setattr(blocks, "WAVE", 3)
+    result = over_blocks(marks, PLANE, starts(PLANE), {"threads": 2}, block=2)
+    np.testing.assert_array_equal(result, marked(PLANE, starts(PLANE)))
 
 
 @pytest.mark.parametrize(("given", "inside"), [({}, 1), ({"threads": 2}, 2)])
@@ -152,7 +160,7 @@ def test_a_family_of_very_many_blocks_makes_a_bounded_number_of_tasks_and_files(
     np.testing.assert_array_equal(result, marked(PLANE, starts(PLANE)))
     assert executor.handed_over == len(list((tmp_path / "kept").iterdir())) == 3
     # 15 + 15 + 10 members in blocks of at most three.
-    assert sorted(line.split()[-1] for line in log.read_text().splitlines()) == ["1", *["3"] * 13]
+    assert sorted(line.split()[-1] for line in log.read_text(encoding="utf-8").splitlines()) == ["1", *["3"] * 13]
 
 
 def test_threads_stop_between_two_blocks_of_a_task(monkeypatch):
@@ -163,8 +171,7 @@ def test_threads_stop_between_two_blocks_of_a_task(monkeypatch):
         calls.append(state.shape)
         if len(calls) == 2:
             signal.raise_signal(signal.SIGINT)  # arrives in the main thread
-            while not stopped.is_set():
-                time.sleep(1e-3)
+            stopped.wait(60)
         return state
 
     stopped = threading.Event()

@@ -11,7 +11,7 @@ from book.studies import transients as transient_study
 from duffing import Duffing, blocks, poincare_section
 from duffing.basins.attractors import find_attractors, settle
 from duffing.basins.basins import basins
-from duffing.basins.fates import fate
+from duffing.basins.fates import classify
 from duffing.orbits.diagram import bifurcation_diagram
 from duffing.sweep.checkpoint import Checkpoint
 from duffing.transients.lifetimes import lifetimes
@@ -47,7 +47,7 @@ def _without_growth(**run):
 
 
 def _fates(**run):
-    return (fate(FAMILY, STARTS, 12, **run, **LOOSE),)
+    return (classify(FAMILY, STARTS, 12, **run, **LOOSE),)
 
 
 def _points(**run):

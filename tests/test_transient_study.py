@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from book.studies import transients as transient_study
-from duffing import ConvergenceError, paper, poincare_section, trajectory
+from duffing import ConvergenceError, paper, poincare_section, saddle_orbit, trajectory
 from duffing.transients.survival import exponential
 
 STEP = {"method": "rk4"}
@@ -30,10 +30,10 @@ def test_a_multiplier_is_one_at_the_fold_and_the_orbits_are_gone_above_it():
 
 
 def test_the_place_of_the_fold_is_passed_in_a_time_of_the_power_minus_one_half():
-    periods = transient_study.ghost((1.6e-4, 4e-5, 1e-5))
+    periods = transient_study.passage_time((1.6e-4, 4e-5, 1e-5))
     np.testing.assert_allclose(periods[1:] / periods[:-1], 2.0, rtol=0.12)  # whole periods, and the way there
     with pytest.raises(ConvergenceError, match=r"^longest = 30: not long enough"):
-        transient_study.ghost((1e-5,), longest=30)
+        transient_study.passage_time((1e-5,), longest=30)
 
 
 def test_rates_of_both_destinations_add_up_to_the_whole():
@@ -100,7 +100,7 @@ def test_large_are_those_round_both_wells_that_repeat_themselves_each_period():
     """At this forcing all starts end round both wells, most on the large orbit and some on one of two periods."""
     _, settled, large = transient_study.sample(0.27, 2.0, 8, 5, periods=400)
     family = replace(paper.OSCILLATOR, p=2.0, mu=np.full(40, 0.27))
-    points = poincare_section(family, transient_study.between(8, 5), 2, transient=600, **STEP)
+    points = poincare_section(family, transient_study.starts_between_wells(8, 5), 2, transient=600, **STEP)
     repeats = np.hypot(*(points[:, 1] - points[:, 0])) < 1e-6
     assert settled.all() and 0 < repeats.sum() < 40
     np.testing.assert_array_equal(large, repeats)
@@ -108,7 +108,7 @@ def test_large_are_those_round_both_wells_that_repeat_themselves_each_period():
 
 def test_a_passage_ends_with_the_first_period_after_which_the_orbit_is_away():
     distance = (1e-3, 3e-4)
-    periods = transient_study.ghost(distance)
+    periods = transient_study.passage_time(distance)
     mu, state = transient_study.folds((0.1,))
     for number, above in zip(periods.tolist(), distance, strict=True):
         osc = replace(paper.OSCILLATOR, mu=mu[0] + above)
@@ -118,7 +118,29 @@ def test_a_passage_ends_with_the_first_period_after_which_the_orbit_is_away():
 
 
 def test_starts_between_the_wells_fill_their_box():
-    starts = transient_study.between(5, 3)
+    starts = transient_study.starts_between_wells(5, 3)
     assert starts.shape == (2, 15)
     np.testing.assert_array_equal(starts.min(axis=1), [-1.0, -0.4])
     np.testing.assert_array_equal(starts.max(axis=1), [1.0, 0.4])
+
+
+def test_lifetimes_below_the_fold_level_off():
+    """At 1e-4 and 1e-6 below the fold they agree, where a crisis would let them grow without bound."""
+    mean, error = transient_study.below_fold((1e-4, 1e-6), columns=12, rows=12, periods=800)
+    assert abs(mean[0] - mean[1]) < 4 * np.hypot(*error)
+    mu = transient_study.folds((0.1,))[0][0]
+    time, settled, _ = transient_study.sample(float(mu - 1e-4), columns=12, rows=12, periods=800)
+    assert mean[0] == exponential(time, settled, transient_study.SINCE).mean
+
+
+def test_the_fixed_step_moves_the_crisis_at_small_p_by_no_more_than_its_resolution():
+    exact, stepped = (transient_study.crises((0.1,), points=200, steps=4, by_step=by)[0] for by in (False, True))
+    assert abs(exact - stepped) < 1.5e-3
+
+
+def test_the_exponent_of_the_crisis_is_that_of_the_saddle_orbits_multipliers():
+    """At p = 1 Liouville's theorem gives the smaller multiplier: l1 l2 = exp(-alpha T)."""
+    (gamma,) = transient_study.crisis_exponent((1.0,))
+    mu = transient_study.crises((1.0,))[0]
+    larger = np.log(abs(saddle_orbit(replace(paper.OSCILLATOR, p=1.0, mu=mu)).multipliers[0]))
+    assert gamma == pytest.approx(0.5 + larger / (larger + 0.1 * 2 * np.pi), abs=1e-5)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from duffing import ConvergenceError, Duffing
-from duffing.basins.fates import fate
+from duffing.basins.fates import classify
 from duffing.basins.uncertainty import dimension, uncertain_starts
 
 BOX = ((-1.0, 1.0), (-1.0, 1.0))
@@ -52,7 +52,7 @@ def test_the_unforced_double_well_has_a_smooth_boundary():
     eps, starts = np.geomspace(1e-3, 0.1, 5), 2**12
 
     def wells(states):
-        return fate(Duffing(), states, 12, method="rk4", steps_per_period=64)
+        return classify(Duffing(), states, 12, method="rk4", steps_per_period=64)
 
     counts = uncertain_starts(wells, ((-1.5, 1.5), (-1.0, 1.0)), eps, starts)
     found = dimension(eps, counts, starts)

@@ -1,4 +1,6 @@
-"""How wide vectors are is a matter of speed: asked for where the processor has them, and never of the result."""
+"""Eight lanes as one number: each lane is what it would be alone, in registers as wide as the processor has them."""
+
+import math
 
 import llvmlite.binding as llvm
 import numba
@@ -6,16 +8,13 @@ import numpy as np
 import pytest
 
 from duffing.integrators import rk4
-from duffing.integrators.friction_time import dop853
-from duffing.integrators.friction_time import equations as friction_time
-from duffing.integrators.friction_time import step_control as judge
-from duffing.integrators.powers import fma
-from duffing.integrators.vectors import stack, widest_vectors
+from duffing.integrators.friction_time import dop853, equations, step_control
+from duffing.integrators.memory import stack, views, widest_vectors
+from duffing.integrators.vectors import bits, fma, from_bits, repeated, root, take, where
 from duffing.oscillator import Duffing
 
 WIDE = llvm.get_host_cpu_features().get("avx512f", False)
 POINTER, WHOLE = numba.types.CPointer(numba.float64), numba.int64
-STAGE = numba.types.literal(7)
 CONTROL = numba.types.Tuple((numba.float64, numba.float64, numba.int64, numba.float64))
 
 
@@ -49,9 +48,9 @@ def test_the_width_of_vectors_changes_no_bit():
 @pytest.mark.parametrize(
     ("kernel", "arguments"),
     [
-        (friction_time.rates, (POINTER, WHOLE, WHOLE, WHOLE)),
-        (dop853._combine, (POINTER, WHOLE, STAGE, WHOLE, WHOLE)),
-        (judge.judge, (POINTER, WHOLE, WHOLE, WHOLE, CONTROL, WHOLE)),
+        (equations.rates, (POINTER, WHOLE, WHOLE, WHOLE, WHOLE)),
+        (dop853._combine, (POINTER, WHOLE, WHOLE, WHOLE, WHOLE)),
+        (step_control.accept_steps, (POINTER, WHOLE, WHOLE, WHOLE, CONTROL, WHOLE)),
     ],
 )
 def test_the_lanes_have_all_of_a_vector_register(kernel, arguments):
@@ -88,3 +87,76 @@ def test_the_memory_on_the_stack_starts_with_zeros():
         return total
 
     assert summed() == 0.0
+
+
+SPECIAL = [0.0, -0.0, 1.5, -2.25, math.inf, -math.inf, math.nan, 5e-324]
+
+
+def _both(function, *rows):
+    """Results of a compiled function of doubles for each of eight, one by one and all at once."""
+    lanes, eights = views(((4,),), 8)
+
+    @numba.njit(error_model="numpy")
+    def one_by_one(given, found):
+        block = stack(32)
+        view = lanes(block, 0)
+        for l in range(8):
+            for row in range(given.shape[0]):
+                view[row, l] = given[row, l]
+            view[3, l] = function(view[0, l], view[1, l], view[2, l])
+            found[l] = view[3, l]
+
+    @numba.njit(error_model="numpy")
+    def at_once(given, found):
+        block = stack(32)
+        view, all_of_it = lanes(block, 0), eights(block, 0)
+        for l in range(8):
+            for row in range(given.shape[0]):
+                view[row, l] = given[row, l]
+        all_of_it[3, 0] = function(all_of_it[0, 0], all_of_it[1, 0], all_of_it[2, 0])
+        for l in range(8):
+            found[l] = view[3, l]
+
+    given, found = np.zeros((3, 8)), np.empty((2, 8))
+    given[: len(rows)] = rows
+    one_by_one(given, found[0])
+    at_once(given, found[1])
+    return found
+
+
+@numba.njit(error_model="numpy")
+def _arithmetic(a, b, c):
+    return fma(a, b, c) + (a - b) * 2.0 / c - abs(b) + root(a) + max(c, 1.25) + repeated(0.5, a)
+
+
+@numba.njit
+def _choices(a, b, c):
+    inside = (a < b) & (b <= c) | (a > 1.0) | (b >= 2.0) | (c == 0.0)
+    return where(inside, -a, where(a != b, 3.0, c))
+
+
+@numba.njit
+def _words(a, b, c):
+    moved = (bits(a) + np.uint64(12345)) & np.uint64(0x7FEFFFFFFFFFFFFF)
+    return from_bits(((moved >> np.uint64(3)) | np.uint64(0x3FF0000000000000)) << np.uint64(1))
+
+
+@pytest.mark.parametrize("function", [_arithmetic, _choices, _words])
+def test_eight_at_once_are_the_same_bits_as_one_by_one(function):
+    rng = np.random.default_rng(2)
+    for rows in (rng.normal(size=(3, 8)), [SPECIAL, SPECIAL[::-1], np.roll(SPECIAL, 3)]):
+        one_by_one, at_once = _both(function, *rows)
+        assert np.array_equal(one_by_one, at_once, equal_nan=True)
+        number = ~np.isnan(one_by_one)
+        assert np.array_equal(np.signbit(one_by_one[number]), np.signbit(at_once[number]))
+
+
+def test_eight_places_of_a_table_at_once():
+    table = np.random.default_rng(4).normal(size=64)
+
+    @numba.njit
+    def looked_up(a, b, c):
+        return take(table, bits(a) >> np.uint64(46) & np.uint64(63))
+
+    found = _both(looked_up, np.random.default_rng(5).normal(size=8))
+    assert np.array_equal(*found) and np.isin(found, table).all() and len(set(found[0])) > 3

@@ -43,7 +43,7 @@ def main():
         sys.exit("There is no complete book in _build: run `make book` first.")
     path = ROOT / "_build" / "duffing-book.zip"
     checksum = pack(contents(ROOT), path)
-    path.with_suffix(".zip.sha256").write_text(f"{checksum}  {path.name}\n")
+    path.with_suffix(".zip.sha256").write_text(f"{checksum}  {path.name}\n", encoding="utf-8")
     print(f"{path}  {path.stat().st_size / 1e6:.1f} MB\nSHA-256 {checksum}")
 
 

@@ -57,38 +57,40 @@ MUTANTS = (
     Mutant("duffing.melnikov", "factor of the forcing integral", "lib.pi * osc.omega / 2 /", "lib.pi * osc.omega /"),
     Mutant("duffing.melnikov", "damping term enters with the wrong sign", "- osc.alpha * damping", "+ osc.alpha * damping"),
     Mutant("duffing.melnikov", "alpha forgotten in mu_c", "osc.alpha * damping_integral(osc) /", "damping_integral(osc) /"),
-    Mutant("duffing.integrators.rk4", "weight of the third stage", "cosines[now + 1], cosines[now + 2]", "cosines[now], cosines[now + 2]"),
+    Mutant("duffing.integrators.rk4", "weight of the third stage", "cosines[k + 1], cosines[k + 2]", "cosines[k], cosines[k + 2]"),
     Mutant("duffing.integrators.rk4", "sign of the damping", "fma(-friction, v, force)", "fma(friction, v, force)"),
-    Mutant("duffing.integrators.rk4", "p forgotten in the tangent's damping", "b[_P, l] * friction", "friction"),
+    Mutant("duffing.integrators.rk4", "p forgotten in the tangent's damping", "osc[P, c] * friction", "friction"),
     Mutant("duffing.integrators.rk4", "factor of the cubic stiffness in the tangent", "fma(3.0, stiffness", "fma(1.0, stiffness"),
     Mutant("duffing.integrators.rk4", "Runge-Kutta's last weight", "(1.0 / 6.0)", "(1.0 / 6.001)"),
-    Mutant("duffing.integrators.rk4", "side of the second tangent", "-side * eta, side * xi\n        b[_Q", "side * eta, side * xi\n        b[_Q"),
+    Mutant("duffing.integrators.rk4", "side of the second tangent", "where(height >= 0.0, 1.0, -1.0)", "where(height >= 0.0, -1.0, 1.0)"),
     Mutant("duffing.integrators.powers", "one cell of the table off", "_mp.mpf(j) + 0.5", "_mp.mpf(j) + 0.4"),
-    Mutant("duffing.integrators.powers", "lost absolute value", "max(abs(v), q.least)\n    field", "max(v, q.least)\n    field"),
+    Mutant("duffing.integrators.powers", "lost absolute value", "max(abs(v), q.least)\n    cell", "max(v, q.least)\n    cell"),
     Mutant("duffing.integrators.forcing", "phase of the steps' middles", "np.arange(2 * count + 1) / (2 * count)", "np.arange(2 * count + 1) / (2 * count + 1)"),
     Mutant("duffing.integrators.forcing", "cosine beyond the quarter turn", "part > 0.25, -total", "part > 0.25, total"),
     Mutant("duffing.integrators.companion", "distance not reset", "apart * (d0 / distance)", "apart"),
     Mutant("duffing.integrators.friction_time.adaptive", "rotation of the second frame", "-np.sin(a)], [np.sin(a)", "np.sin(a)], [-np.sin(a)"),
     Mutant("duffing.integrators.friction_time.adaptive", "shear forgotten in the propagator", "r11 * results[R12]", "0 * results[R12]"),
-    Mutant("duffing.integrators.friction_time.tangent_frame", "two tangents' area", "a[ETA2 + l] - a[ETA1 + l] * a[XI2 + l] if", "a[ETA2 + l] + a[ETA1 + l] * a[XI2 + l] if", ("tests/test_friction.py",)),
-    Mutant("duffing.integrators.friction_time.radau", "sign of the relaxation", "h * a[ALPHA + l] * _A[i, j] - h * h", "-h * a[ALPHA + l] * _A[i, j] - h * h", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.friction_time.tangent_frame", "two tangents' area", "now[ETA2, l] - now[ETA1, l] * now[XI2, l] if", "now[ETA2, l] + now[ETA1, l] * now[XI2, l] if", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.friction_time.radau", "sign of the relaxation", "h * alpha * _A[i, j] - h * h", "-h * alpha * _A[i, j] - h * h", ("tests/test_friction.py",)),
     Mutant("duffing.integrators.friction_time.radau", "a passage through zero does not annihilate", "return math.inf\n    for g", "return 0.0\n    for g", ("tests/test_friction.py",)),
     Mutant("duffing.integrators.friction_time.equations", "factor of phi forgotten", "phi = m * speed", "phi = speed", ("tests/test_friction.py",)),
-    Mutant("duffing.integrators.friction_time.equations", "phase of the forcing", "(a[START + l] + t)", "t", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.friction_time.equations", "phase of the forcing", "(osc[START, l] + t)", "t", ("tests/test_friction.py",)),
     Mutant("duffing.integrators.friction_time.equations", "lost |w|", "logarithm(max(abs(w), 2.0**-1022))", "logarithm(max(w, 2.0**-1022))", ("tests/test_friction.py",)),
     Mutant("duffing.integrators.friction_time.elementary", "the whole part of the exponent", "fma(q, e, -whole))", "fma(q, e, whole))"),
-    Mutant("duffing.integrators.friction_time.dop853", "a stage at the time of the one before", "_NODES[stage], a[T + l]", "_NODES[stage - 1], a[T + l]", ("tests/test_friction.py",)),
-    Mutant("duffing.integrators.friction_time.dop853", "friction time stands where the damping is linear", "a[NEW + S + l] = fma(a[H + l], _NODES[stage], a[S + l])", "a[NEW + S + l] = a[S + l]", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.friction_time.dop853", "a stage at the time of the one before", "_NODES[stage], now[T, c]", "_NODES[stage - 1], now[T, c]", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.friction_time.dop853", "friction time stands where the damping is linear", "new[S, c] = fma(h[c], _NODES[stage], now[S, c])", "new[S, c] = now[S, c]", ("tests/test_friction.py",)),
     Mutant("duffing.integrators.friction_time.dop853", "short and long form differ in a bit", "np.cumsum(_TABLE, axis=1)[:, -1]", "np.cumsum(_TABLE, axis=1)[:, -1] * (1 + 2**-52)", ("tests/test_lanes.py",)),
-    Mutant("duffing.integrators.friction_time.step_control", "rejected steps are taken", "taken = (a[REJECTED + l] == 0.0) & (a", "taken = (a[REJECTED + l] >= 0.0) & (a", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.friction_time.step_control", "rejected steps are taken", "taken = (step[REJECTED, c] == 0.0) & (", "taken = (step[REJECTED, c] >= 0.0) & (", ("tests/test_friction.py",)),
     Mutant("duffing.integrators.friction_time.step_control", "an error is taken for small", "fits = e <= 1.0", "fits = e <= 1e4", ("tests/test_friction.py",)),
-    Mutant("duffing.integrators.friction_time.scheduler", "a lane that moves leaves its parameters behind", "range(0, BLOCK, WIDTH)", "range(0, ALPHA, WIDTH)", ("tests/test_lanes.py",)),
-    Mutant("duffing.integrators.friction_time.event_location", "the last shift the wrong way", "shift * a[RATE + row + l]", "-shift * a[RATE + row + l]", ("tests/test_friction.py", "tests/test_lanes.py")),
+    Mutant("duffing.integrators.friction_time.scheduler", "a lane that moves leaves its parameters behind", "range(0, BLOCK, WIDTH)", "range(0, 8 * WIDTH, WIDTH)", ("tests/test_lanes.py",)),
+    Mutant("duffing.integrators.friction_time.event_location", "the last shift the wrong way", "shift * rate[row, l]", "-shift * rate[row, l]", ("tests/test_friction.py", "tests/test_lanes.py")),
     Mutant("duffing.orbits.periodic", "the half map's change of sign", "sign = (-1) ** halves", "sign = 1 ** halves"),
     Mutant("duffing.basins.capture", "a capture one period too early", "done - points.shape[1] + 1 + when", "done - points.shape[1] + when", ("tests/test_attractors.py",)),
     Mutant("duffing.sweep.families", "members come back to other places", "self.result[..., self.members(start)] = array", "self.result[..., start : start + array.shape[-1]] = array"),
     Mutant("duffing.sweep.checkpoint", "a damaged file is trusted", "if seal != _seal(key, content):", "if not seal:"),
-    Mutant("duffing.integrators.vectors", "memory that is not empty", "array, zfill=True)", "array)"),
+    Mutant("duffing.integrators.vectors", "no number chosen otherwise than Python does", "builder.fcmp_ordered(\">\", b, a), b, a", "builder.fcmp_unordered(\">\", b, a), b, a"),
+    Mutant("duffing.integrators.friction_time.scheduler", "a lane that has moved steps on with old slopes", "if moved:\n", "if moved and waiting == 0:\n", ("tests/test_friction.py",)),
+    Mutant("duffing.integrators.memory", "memory that is not empty", "array, zfill=True)", "array)", ("tests/test_vectors.py",)),
     Mutant("duffing.basins.trapping", "the disk need not shrink", "MARGIN = 0.98", "MARGIN = 1.98"),
     Mutant("duffing.basins.attractors", "an orbit's mirror image forgotten", "[: 1 + (halves % 2 == 0)]", "[:1]"),
     Mutant("duffing.basins.fates", "wells exchanged", "RIGHT, np.where(np.all(x < 0, axis=0), LEFT, crossing)", "LEFT, np.where(np.all(x < 0, axis=0), RIGHT, crossing)", ("tests/test_uncertainty.py", "tests/test_basin_study.py")),
@@ -143,10 +145,10 @@ MUTANTS = (
 def apply(mutant, root):
     """Put the error into the copy; returns the file's good text."""
     path = root / f"{mutant.module.replace('.', '/')}.py"
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     if text.count(mutant.good) != 1:
         raise ValueError(f"{mutant.module}: {mutant.good!r} must occur once, not {text.count(mutant.good)} times")
-    path.write_text(text.replace(mutant.good, mutant.bad))
+    path.write_text(text.replace(mutant.good, mutant.bad), encoding="utf-8")
     return path, text
 
 
@@ -156,7 +158,9 @@ def first_failure(root, files):
     # Found first, so that the installed package is not the one tested.
     environment = {**os.environ, "PYTHONPATH": str(root)}
     try:
-        run = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, timeout=PATIENCE)
+        run = subprocess.run(
+            command, cwd=root, env=environment, capture_output=True, text=True, timeout=PATIENCE, encoding="utf-8"
+        )
     except subprocess.TimeoutExpired:
         return f"the tests do not end within {PATIENCE} s"
     if run.returncode == 0:
@@ -170,7 +174,7 @@ def main(modules):
     survivors = 0
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
-        for name in subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True).splitlines():
+        for name in subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True, encoding="utf-8").splitlines():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, root / name)
         # A test that the copy fails without an error would be said to catch each.
@@ -181,7 +185,7 @@ def main(modules):
             own = f"tests/test_{mutant.module.rpartition('.')[2]}.py"
             files = mutant.tests or ((own,) if (root / own).exists() else ())
             caught = (first_failure(root, files) if files else None) or first_failure(root, SUITE)
-            path.write_text(good)
+            path.write_text(good, encoding="utf-8")
             survivors += caught is None
             print(f"{mutant.module:45} {mutant.what:50} {caught or 'SURVIVED'}", flush=True)
     print(f"{len(chosen) - survivors} of {len(chosen)} caught")

@@ -3,11 +3,10 @@
 No TeX. The book is built first; nothing runs again. Chromium is Debian's, or the one that CHROMIUM names.
 """
 
-import os
-import shutil
 import sys
 from pathlib import Path
 
+import chromium
 from jupyter_book.sphinx import build_sphinx
 from playwright.sync_api import sync_playwright
 
@@ -37,11 +36,11 @@ def one_page(root):
     return (build / "singlehtml" / "chapters" / "index.html").rename(build / "singlehtml" / "book.html")
 
 
-def printed(page, path, chromium):
+def printed(page, path, browser):
     """Print a page as PDF once its equations are typeset and all its pictures are there."""
     with sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=chromium, args=["--no-sandbox", "--disable-gpu"])
-        tab = browser.new_page(color_scheme="light")
+        window = play.chromium.launch(executable_path=browser, args=["--no-sandbox", "--disable-gpu"])
+        tab = window.new_page(color_scheme="light")
         tab.set_default_timeout(120_000)
         tab.goto(page.as_uri())
         tab.evaluate("MathJax.startup.promise.then(() => null)")
@@ -61,15 +60,15 @@ def printed(page, path, chromium):
             outline=True,
             tagged=True,
         )
-        browser.close()
+        window.close()
 
 
 def main():
-    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
-    if not chromium:
-        sys.exit("No Chromium found: `apt-get install chromium`, or name one: CHROMIUM=/path make pdf")
+    browser, missing = chromium.found()
+    if missing:
+        sys.exit(missing)
     path = ROOT / "_build" / "duffing-book.pdf"
-    printed(one_page(ROOT), path, chromium)
+    printed(one_page(ROOT), path, browser)
     print(f"{path}  {path.stat().st_size / 1e6:.1f} MB")
 
 

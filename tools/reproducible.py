@@ -21,7 +21,7 @@ from nbclient import NotebookClient
 
 ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT / "book" / "sphinx"))
-from build import isolate  # noqa: E402 - its folder is put on the path above
+from isolation import isolate  # noqa: E402 - its folder is put on the path above
 
 # Chapters and glued values that tell of the machine or of the clock, and why.
 LEFT_OUT = {
@@ -41,11 +41,10 @@ def chapters():
 
 def run(chapter, threads, folder):
     """The chapter's notebook, executed in a kernel that believes in so many processors."""
-    profile = folder / f"ipython-{threads}"
-    isolate(profile)
-    startup = profile / "profile_default" / "startup"
-    startup.mkdir(exist_ok=True)
-    (startup / "threads.py").write_text(f"import os\nos.cpu_count = lambda: {threads}\n")
+    surroundings = folder / f"kernels-{threads}"
+    isolate(surroundings, ROOT)
+    script = f"from duffing.integrators import processors\nprocessors.available = lambda: {threads}\n"
+    (surroundings / "ipython" / "profile_default" / "startup" / "threads.py").write_text(script, encoding="utf-8")
     notebook = jupytext.read(ROOT / f"{chapter}.md")
     NotebookClient(notebook, timeout=1200, resources={"metadata": {"path": ROOT / "chapters"}}).execute()
     return notebook

@@ -2,13 +2,18 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from duffing import paper
 
 from ..pages import tables
+from ..remember import remembered
+from ..studies import inference, missing_parameters
 from . import contradiction as findings_contradiction
 from . import exponents as findings_exponents
 from . import motion as findings_motion
 from . import theory as findings_theory
+from .dependence import INDEPENDENT, USED, kind
 from .verdicts import VERDICTS, Finding
 
 FINDINGS = {
@@ -40,9 +45,52 @@ def rows(*keys):
 
 def table(*keys):
     """The rows as a Markdown table to be glued into a page; all of them without keys."""
-    head = ("Where", "The paper says", "We find", "Verdict")
+    head = ("Where", "The paper says", "Kind", "We find", "Verdict", "Used to choose α, ω", "Depends on α, ω")
     found = rows(*keys)
-    return tables.table(head, [(c.where, c.says, f.text, f"**{f.verdict}**") for c, f in found])
+    chance = over_pairs() if any(claim.key in USED for claim, _ in found) else {}
+    cells = [(c.where, c.says, kind(c.key), f.text, f"**{f.verdict}**", *_pairs(c.key, chance)) for c, f in found]
+    return tables.table(head, cells)
+
+
+def _pairs(key, chance):
+    """The two last cells of a row."""
+    if key in INDEPENDENT:
+        return "no", "no"
+    if key not in USED:
+        return "no", "yes"
+    return "yes: circular", "; ".join(f"{letter}: {p:.2g}" for letter, p in chance[key].items())
+
+
+@remembered
+def over_pairs():
+    """dict: key of a claim that was used to choose alpha and omega -> dict: letter of a likely pair -> probability.
+
+    That of what the paper says, under the pair, in the reading of the exponents that suits the pair best; of a printed
+    exponent the probability of one within 0.01 of it. Claims used by several statements: the product.
+    """
+    alpha, omega = ([getattr(pair, name) for pair in paper.LIKELY] for name in ("alpha", "omega"))
+    evidence = missing_parameters.evidence(alpha, omega)
+    reading = inference.best_reading(inference.log_likelihood(evidence))
+    found = [inference.probabilities(evidence, *each) for each in reading]
+    chance = {}
+    for claim, statements in USED.items():
+        width = 0.02 if statements[0] in inference.NUMBERS else 1.0  # a density over the interval
+        chance[claim] = {
+            pair.letter: min(1.0, width * float(np.prod([each[key][k] for key in statements])))
+            for k, (pair, each) in enumerate(zip(paper.LIKELY, found, strict=True))
+        }
+    return chance
+
+
+def verdicts(*keys):
+    """A line for each of these claims, to end a chapter with: what the paper says and the verdict; reasons: the ledger."""
+    found = [(claim.says, f"[**{finding.verdict}**](ledger.md)") for claim, finding in rows(*keys)]
+    return tables.table(("The paper says", "Verdict"), found)
+
+
+def independent(found):
+    """The rows whose verdict depends on nothing that was chosen, and those whose confirmation is circular: two lists."""
+    return [row for row in found if row.claim.key in INDEPENDENT], [row for row in found if row.claim.key in USED]
 
 
 def tally(found):

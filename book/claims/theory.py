@@ -13,10 +13,10 @@ from duffing.melnikov import (
     damping_integral,
     homoclinic_orbit,
     melnikov_function,
-    melnikov_quadrature,
 )
 from duffing.oscillator import Duffing
 
+from ..studies.melnikov import melnikov_quadrature
 from .verdicts import decide, finds
 
 FINDINGS = {}
@@ -67,8 +67,8 @@ def _energy_integral():
     x_max = sp.solve(way_out, x)[0]
     path = x_max * sp.sech(tau)
     constant = sp.simplify(sp.diff(path, tau) / way_out.subs(x, path))
-    text = "Derived (sympy); Eq. 6 prints the outgoing branch only, Eq. 7 has both signs."
-    return decide(sp.simplify(constant + 1 / kappa) == 0, text, limited=True)
+    text = "Derived (sympy). Eq. 6 prints the outgoing branch, Eq. 7 has both signs."
+    return decide(sp.simplify(constant + 1 / kappa) == 0, text)
 
 
 @finds(FINDINGS, "eq-8")
@@ -120,7 +120,6 @@ def _forms():
     return decide(
         holds,
         "h is d$H^0$; h ∧ g is minus the power v(μ cos ωt − dpt), a choice of orientation that moves no zero.",
-        limited=True,
     )
 
 
@@ -183,10 +182,10 @@ def _sufficient():
     ratio = homoclinic_tangency(osc) / critical_amplitude(osc)
     found = ", ".join(f"{r:.4f} at p = {q:g}" for r, q in zip(ratio, p, strict=True))
     text = (
-        "Of the manifolds' crossing μ > $μ_c$ is sufficient and necessary, to first order in α and μ: the true tangency lies at "
-        f"μ/$μ_c$ = {found} (α = 0.1, ω = 1). Of chaos it is not sufficient, and the abstract does not say of which."
+        "To first order in α and μ: the true tangency lies at "
+        f"μ/$μ_c$ = {found} (α = 0.1, ω = 1). The conclusions call it “necessary” of the transition to chaos, which is another statement."
     )
-    return decide(np.all(np.abs(ratio - 1) < 0.03), text, limited=True)
+    return decide(np.all(np.abs(ratio - 1) < 0.03), text)
 
 
 @finds(FINDINGS, "monotone")

@@ -3,10 +3,12 @@
 from functools import cache
 from typing import NamedTuple
 
-CONFIRMED, LIMITED, NOT_CONFIRMED, NOT_CHECKABLE = VERDICTS = (
+CONFIRMED, LIMITED, NOT_CONFIRMED, NOT_REPRODUCED, RESOLVED, NOT_CHECKABLE = VERDICTS = (
     "confirmed",
     "confirmed with limits",
     "not confirmed",
+    "not reproduced",
+    "resolved",
     "not checkable",
 )
 
@@ -30,6 +32,6 @@ def finds(findings, key):
     return register
 
 
-def decide(holds, text, *, limited=False):
-    """A Finding: confirmed (with limits if `limited`) when the computation holds, else not confirmed."""
-    return Finding((LIMITED if limited else CONFIRMED) if holds else NOT_CONFIRMED, text)
+def decide(holds, text, *, limited=False, otherwise=NOT_CONFIRMED):
+    """A Finding: confirmed (with limits if `limited`) when the computation holds, else `otherwise`."""
+    return Finding((LIMITED if limited else CONFIRMED) if holds else otherwise, text)

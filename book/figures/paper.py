@@ -9,6 +9,7 @@ from .style import (
     BLACK,
     BLUE,
     GREY,
+    SKY,
     STABLE,
     STEADY,
     TRANSIENT,
@@ -53,23 +54,44 @@ def draw_manifolds(axes, loops, stable, unstable):
 
 
 @styled
-def fig2(loops, cases, xlim=None, ylim=None):
-    """Homoclinic loops under the manifolds of each case, a panel each: (title, stable curves, unstable curves).
+def stroboscopic(t, path, points):
+    """A path (2, n) in the plane and in time t (n,), with a dot once a forcing period: points (2, periods + 1)."""
+    fig = PageFigure(figsize=(8.0, 3.4))
+    plane, time = fig.subplots(1, 2)
+    plane.plot(*path, color=SKY, linewidth=0.9, label="path")
+    plane.plot(*points, "o", color=BLACK, markersize=4, label="once a period")
+    for number, (x, v) in enumerate(points.T[:4]):
+        plane.annotate(f"{number}", (x, v), xytext=(5, 5), textcoords="offset points", fontsize=9)
+    plane.set(xlabel="displacement $x$ (dimensionless)", ylabel="velocity $v$ (dimensionless)")
+    time.plot(t, path[0], color=SKY, linewidth=0.9)
+    time.plot(np.linspace(t[0], t[-1], points.shape[1]), points[0], "o", color=BLACK, markersize=4)
+    time.set(xlabel="time $t$ (dimensionless)", ylabel="displacement $x$ (dimensionless)")
+    fig.legend(loc="outside upper center", ncols=2)
+    return fig
 
+
+@styled
+def fig2(loops, cases, xlim=None, ylim=None):
+    """Homoclinic loops under the manifolds of each case, a panel each: (title, stable curves, unstable curves, point).
+
+    The point, a primary homoclinic one, is ringed; it may be None or missing.
     xlim, ylim : None for limits round the loops
     """
     fig = PageFigure(figsize=(3.4 + 1.3 * len(cases) + 0.8, 3.9))
     panels = fig.subplots(1, len(cases), sharey=True, squeeze=False)[0]
     width, height = (beyond([loop[i] for loop in loops], share) for i, share in ((0, 1.23), (1, 1.48)))
     xlim, ylim = xlim or (-width, width), ylim or (-height, height)
-    for axes, (title, stable, unstable) in zip(panels, cases, strict=True):
+    for axes, (title, stable, unstable, *point) in zip(panels, cases, strict=True):
         draw_manifolds(axes, loops, stable, unstable)
+        for x, v in (one for one in point if one is not None):
+            look = {"markersize": 11, "markerfacecolor": "none", "markeredgewidth": 1.6, "linestyle": "none"}
+            axes.plot(x, v, "o", color=BLACK, label="primary homoclinic point", **look)
         axes.set(xlabel="displacement $x$ (dimensionless)", xlim=xlim, ylim=ylim)
         axes.xaxis.label.set_size(9.5)
         axes.set_title(title, fontsize=10)
     panels[0].set_ylabel("velocity $v$ (dimensionless)")
-    labels = dict(zip(*reversed(panels[0].get_legend_handles_labels()), strict=True))
-    fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)
+    labels = {text: handle for axes in panels for handle, text in zip(*axes.get_legend_handles_labels(), strict=True)}
+    fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=len(labels))
     return fig
 
 
@@ -97,15 +119,29 @@ def fig3b(p, mu_c, p_onset, onset):
 
 
 @styled
-def fig4(mu, exponent, p, threshold):
-    """lambda_1 versus mu with the threshold line (Fig. 4a: p = 0.1, Fig. 4b: p = 1)."""
-    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)")
+def fig4(mu, exponent, p, threshold, limits=None, window=None):
+    """lambda_1 versus mu with the threshold line (Fig. 4a: p = 0.1, Fig. 4b: p = 1).
+
+    limits : of the exponent's axis, None for the curve's own
+    window : (first, last mu, least, greatest exponent) of an inset, None for none
+    """
+    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)", figsize=(6.8, 4.4))
+    _exponents(axes, mu, exponent, p, threshold)
+    axes.set(xlim=(mu[0], mu[-1]), ylim=limits)
+    if window is not None:
+        inset = axes.inset_axes((0.49, 0.1, 0.48, 0.44))
+        _exponents(inset, mu, exponent, p, threshold, ".-", markersize=3.5)
+        inset.set(xlim=window[:2], ylim=window[2:])
+        inset.tick_params(labelsize=9)
+        axes.indicate_inset_zoom(inset, edgecolor=BLACK)
+    fig.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=2)
+    return fig
+
+
+def _exponents(axes, mu, exponent, p, threshold, style="-", **look):
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0, label=rf"threshold $\lambda_1 = {threshold:g}$")
-    axes.plot(mu, exponent, color=line_of(p)["color"], linewidth=1.1, label=f"$p = {p:g}$")
-    axes.set_xlim(mu[0], mu[-1])
-    fig.legend(loc="outside upper right", ncols=2)
-    return fig
+    axes.plot(mu, exponent, style, color=line_of(p)["color"], linewidth=1.1, label=f"$p = {p:g}$", **look)
 
 
 @styled

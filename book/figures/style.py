@@ -11,6 +11,7 @@ from pathlib import Path
 import matplotlib.style
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator
 
 from .data import label_along, lines, names_of_places, series
 
@@ -38,9 +39,23 @@ def styled(draw):
     @wraps(draw)
     def inside(*args, **kwargs):
         with matplotlib.style.context(STYLE):
-            return draw(*args, **kwargs)
+            fig = draw(*args, **kwargs)
+            for axes in fig.axes:
+                decades(axes.xaxis)
+                decades(axes.yaxis)
+            return fig
 
     return inside
+
+
+def decades(axis):
+    """Ticks of a logarithmic axis at powers of ten, at most eight: Matplotlib's own choice depends on its version."""
+    if axis.get_scale() != "log" or not isinstance(axis.get_major_locator(), LogLocator):
+        return
+    low, high = np.log10(axis.get_view_interval())
+    every = max(1, int(np.ceil((high - low) / 8)))
+    axis.set_major_locator(LogLocator(10.0**every, numticks=99))
+    axis.set_minor_locator(LogLocator(10.0, subs=range(2, 10), numticks=99) if every == 1 else NullLocator())
 
 
 class PageFigure(Figure):

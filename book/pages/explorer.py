@@ -12,7 +12,7 @@ from duffing.manifolds.tangency import homoclinic_tangency, splitting
 from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
-from ..studies.small_p import TOLERANCE
+from ..studies.accuracy import CURVES, integrator
 
 # Forcings that tell the story, besides fractions of the threshold: the paper's two, the window, the large orbit.
 AMPLITUDES = (
@@ -62,7 +62,7 @@ def _story(osc, amplitudes):
     mu = np.unique(np.concatenate([amplitudes, np.round(np.array(FRACTIONS) * (tangency or mu_c), 5)]))
     grid = np.round(np.arange(0.005, amplitudes.max() + 0.0025, 0.005), 6)
     both = np.concatenate([mu, grid])
-    method = {"method": "rk4"} if osc.p >= 1 else TOLERANCE
+    method = integrator(osc.p, CURVES)
     exponent = lyapunov_spectrum(replace(osc, mu=both), paper.START, SETTLED, 40, k=1, **method).exponents[0]
     order = np.argsort(both)
     history, path, points = _motion(replace(osc, mu=mu), method)

@@ -13,4 +13,9 @@ def widget(name, data):
 
     text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     # Nothing in the data may end the script that holds it.
-    return HTML(Path(__file__).with_name(f"{name}.html").read_text().replace("DATA", text.replace("<", "\\u003c")))
+    return HTML(
+        Path(__file__)
+        .with_name(f"{name}.html")
+        .read_text(encoding="utf-8")
+        .replace("DATA", text.replace("<", "\\u003c"))
+    )

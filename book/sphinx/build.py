@@ -3,28 +3,25 @@
 Run from the root of the repository: python book/sphinx/build.py [number of chapters side by side]
 """
 
-import os
 import shutil
 import sys
 from pathlib import Path
 
+from isolation import isolate
 from jupyter_book.sphinx import build_sphinx
+from one_build import lock
+from sphinx.errors import SphinxError
 from sphinx.util.console import nocolor
-
-
-def isolate(folder):
-    """Kernels run in the environment's own Python from an empty profile: no personal setting changes a figure."""
-    os.environ |= {"IPYTHONDIR": str(folder), "JUPYTER_PREFER_ENV_PATH": "1"}
-    profile = folder / "profile_default"
-    profile.mkdir(parents=True, exist_ok=True)
-    # The kernel's advice on encrypted transport, once a chapter, would bury what matters.
-    (profile / "ipython_kernel_config.py").write_text("c.IPKernelApp.log_level = 'ERROR'\n")
 
 
 def main(jobs=2):
     root = Path.cwd()
     build = root / "_build"
-    isolate(build / "ipython")
+    try:
+        lock(build)
+    except SphinxError as error:
+        sys.exit(f"{error}")
+    isolate(build / "kernels", root)  # before the processes that read chapters side by side
     if not sys.stdout.isatty():
         nocolor()
     complete = build / "complete"

@@ -1,9 +1,10 @@
 """Beside each numbered equation a mark that leads to the test that checks it, and says how its last run ended.
 
 A chapter says it in words: "Eq. {eq}`eq-1` is checked by `tests/test_x.py::test_y`". From such a paragraph each
-equation gets its marks, every cited test becomes a link, and the page of tests shows the source of each, with its
-outcome. The outcomes come from the last run of the tests if that was a run of this very code (run_report.py); else the
-mark says that the test was not run. A numbered equation without a test is a warning, which fails the build.
+equation gets its marks; the page itself does not show it. A test cited within other prose becomes a mark there. The
+page of tests shows the source of each, with its outcome, which comes from the last run of the tests if that was a run
+of this very code (run_report.py); else the mark says that the test was not run. A numbered equation without a test is a
+warning, which fails the build.
 """
 
 import ast
@@ -53,6 +54,13 @@ def is_citation(node):
     return isinstance(node, nodes.literal) and CITED.fullmatch(node.astext()) is not None
 
 
+def tells_tests_alone(paragraph):
+    """Whether a paragraph says which tests check what, and little else: at most ten words to each test."""
+    cited = [node.astext() for node in paragraph.findall(is_citation)]
+    words = paragraph.astext().split()
+    return bool(cited) and "checked by" in " ".join(words).lower() and len(words) - len(cited) <= 10 * len(cited)
+
+
 def checks(doctree):
     """Which tests check which equation: dict label -> tests.
 
@@ -90,28 +98,28 @@ def place_marks(app, doctree):
         marks = nodes.paragraph(classes=["test-marks"])
         marks += [nodes.inline(test=test, kind="mark") for test in dict.fromkeys(tests[label])]
         equation.parent.insert(equation.parent.index(equation) + 1, marks)
+    for paragraph in list(doctree.findall(nodes.paragraph)):
+        if tells_tests_alone(paragraph):
+            paragraph.parent.remove(paragraph)
     for literal in list(doctree.findall(is_citation)):
-        cited = nodes.inline(test=literal.astext(), kind="citation")
-        literal.replace_self(cited)
-        cited += literal
+        literal.replace_self(nodes.inline(test=literal.astext(), kind="mark"))
 
 
 def fill(app, doctree, page):
     """Turn what was placed into links with the outcome of the last run."""
     for node in list(doctree.findall(lambda node: isinstance(node, nodes.inline) and "test" in node)):
-        test, kind = node["test"], node["kind"]
+        test = node["test"]
         how, cases = outcome(app, test)
         sign, word = MARKS[how]
-        if kind == "outcome":
+        if node["kind"] == "outcome":
             count = f", {cases} cases" if cases > 1 else ""
-            node += nodes.Text(f"{sign} {how}{count}")
+            seconds = app.config.test_run["seconds"].get(test, 0.0)
+            took = f", {seconds:.0f} s" if seconds >= run_report.SLOW else ""
+            node += nodes.Text(f"{sign} {how}{count}{took}")
             node["classes"] += ["test-outcome", how.replace(" ", "-")]
         else:
-            shown = nodes.inline(classes=[f"test-{kind}", how.replace(" ", "-")])
-            if kind == "mark":
-                shown += [nodes.Text(f"{sign} {word}"), nodes.inline("", f": {in_words(test)}", classes=["spoken"])]
-            else:
-                shown += [*node.children, nodes.Text(f" {sign}"), nodes.inline("", f" {word}", classes=["spoken"])]
+            shown = nodes.inline(classes=["test-mark", how.replace(" ", "-")])
+            shown += [nodes.Text(f"{sign} {word}"), nodes.inline("", f": {in_words(test)}", classes=["spoken"])]
             title = f"{in_words(test)}: {how}"
             node.replace_self(make_refnode(app.builder, page, app.config.tests_page, anchor(test), shown, title))
     for node in list(doctree.findall(lambda node: isinstance(node, nodes.inline) and "summary" in node)):
@@ -171,7 +179,11 @@ class TestPage(SphinxDirective):
 
 def load_run(app, config):
     report = run_report.of_this_state(app.srcdir)
-    config.test_run = {**report, "outcomes": run_report.by_function(report["outcomes"])}
+    functions = {
+        "outcomes": run_report.by_function(report["outcomes"]),
+        "seconds": run_report.seconds_of(report["durations"]),
+    }
+    config.test_run = {**report, **functions}
 
 
 def setup(app):

@@ -1,29 +1,30 @@
 """What the chapter on basins computes: pictures, their dependence on the step, dimensions of the boundary, sections.
 
-Sizes are arguments: the book takes what fits its time, `tools/maps_basins.py` the full resolution.
+Sizes are arguments: the book takes what fits its time, `tools/maps.py` the full resolution.
 """
 
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import brentq
 
 from duffing import paper
 from duffing.basins.attractors import find_attractors
 from duffing.basins.basins import basins, changed
 from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.basins.contact import first_contact
-from duffing.basins.fates import fate
+from duffing.basins.fates import classify
 from duffing.basins.uncertainty import dimension, uncertain_starts
 from duffing.errors import ConvergenceError
 from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
+from .accuracy import integrator
 
 FRAME = ((-1.7, 1.7), (-1.5, 1.5))  # x and v of the pictures
 AXIS = ((-1.5, 0.0), (1.5, 0.0))  # the line v = 0 whose crossings with the boundary are counted
-STEPS = 128  # Runge-Kutta steps a period for p = 1
-FRICTION_TIME = {"rtol": 1e-6, "atol": 1e-8}
+STEPS = 128  # Runge-Kutta steps a period for p >= 1
 SECTION_PERIODS = 120
 
 
@@ -33,15 +34,10 @@ def oscillator(p, ratio=None, mu=None):
     return replace(osc, mu=float(ratio * critical_amplitude(osc)) if mu is None else mu)
 
 
-def integrator(p, steps=STEPS):
-    """Options for p: physical time and fixed steps where the damping is smooth in v, friction time elsewhere."""
-    return {"method": "rk4", "steps_per_period": steps} if p == 1 else FRICTION_TIME
-
-
 @remembered
 def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, **sweep):
     """Basins of size x size starts in FRAME, at ratio times mu_c or at mu; sweep : how, as for `basins`."""
-    osc, options = oscillator(p, ratio, mu), integrator(p, steps)
+    osc, options = oscillator(p, ratio, mu), integrator(p, steps_per_period=steps)
     x, v = (np.linspace(*ends, size) for ends in FRAME)
     # Starts of a coarser grid than by default: a small attractor that they miss is met by the picture's own starts.
     starts = np.reshape(np.meshgrid(x[:: size // 8], v[:: size // 8]), (2, -1))
@@ -78,6 +74,18 @@ def line_dimensions(p, ratios, most=30_000):
     return values, errors, np.array([one.left.size for one in found])
 
 
+def below(ratios, most, tangency):
+    """The (ratio, most) whose ratio is less than the tangency; most : as for `line_dimensions`."""
+    pairs = zip(ratios, np.broadcast_to(most, len(ratios)).tolist(), strict=True)
+    return [(ratio, number) for ratio, number in pairs if ratio < tangency]
+
+
+def counted_dimension(distance, multiplier):
+    """d with 4 sum over n >= ln(1/distance)/ln(multiplier) of multiplier^(-n d) = 1: the strips that excursions of n
+    periods make near a tangency, at the relative distance in mu above it."""
+    return float(brentq(lambda d: 4 * distance**d / (1 - multiplier**-d) - 1, 1e-6, 1.0))
+
+
 @remembered
 def random_dimensions(p, ratios, starts=2**12, eps=(1e-4, 3e-4, 1e-3, 3e-3, 1e-2), periods=20):
     """D from random starts in FRAME at each ratio: (values, errors), each (n,); nan where too few are uncertain."""
@@ -86,7 +94,7 @@ def random_dimensions(p, ratios, starts=2**12, eps=(1e-4, 3e-4, 1e-3, 3e-3, 1e-2
         osc = oscillator(p, ratio)
 
         def label(states, osc=osc):
-            return fate(osc, states, periods, **integrator(p, 96))
+            return classify(osc, states, periods, **integrator(p, steps_per_period=96))
 
         try:
             found.append(dimension(eps, uncertain_starts(label, FRAME, eps, starts), starts))
@@ -109,4 +117,4 @@ def section(mu, x, p=paper.P_SMALL, periods=SECTION_PERIODS):
     x, mu = np.array(x), np.array(mu)
     states = np.array(np.broadcast_arrays(x[:, None], np.zeros(mu.size)))
     family = replace(paper.OSCILLATOR, p=p, mu=np.broadcast_to(mu, states.shape[1:]))
-    return fate(family, states, periods, last=16, **integrator(p))
+    return classify(family, states, periods, last=16, **integrator(p, steps_per_period=STEPS))

@@ -8,10 +8,18 @@ import numpy as np
 from duffing import paper
 from duffing.errors import ConvergenceError
 from duffing.flow import integrate
-from duffing.orbits.bifurcations import FLIP, FOLD, OrbitBranch, bifurcations, loci, orbit_branches, switched
+from duffing.orbits.bifurcations import (
+    FLIP,
+    FOLD,
+    OrbitBranch,
+    bifurcation_curves,
+    bifurcations,
+    orbit_branches,
+    switch_branches,
+)
 from duffing.orbits.continuation import BOUND
 from duffing.orbits.diagram import bifurcation_diagram
-from duffing.orbits.followed import DRAWING, Followed, at_exponent, orbits_at
+from duffing.orbits.followed import DRAWING, AnnotatedBranch, at_exponent, orbits_at
 from duffing.orbits.periodic import cycle, periodic_orbits
 
 from ..remember import remembered
@@ -24,7 +32,7 @@ HALVES = {IN_WELL: 2, LARGE: 1, SADDLE: 1, THIRD: 3}
 
 @remembered
 def branches(p=EXPONENTS, last=0.5):
-    """The main branches in mu for each exponent: tuple of Followed.
+    """The main branches in mu for each exponent: tuple of AnnotatedBranch.
 
     The orbits in a well, round both wells, near x = 0 (the saddle orbit) and of period 3 (symmetric), each in both
     directions from one of them; then what leaves their flips, the doubled and the asymmetric orbits, up to mu = 0.3.
@@ -38,10 +46,10 @@ def branches(p=EXPONENTS, last=0.5):
     ]
     first = _both_ways(seeds, p)
     flips = [(one.name, flip) for one in first for flip in one.found if flip.kind == FLIP]
-    doubled = switched([flip for _, flip in flips], bounds=(0.01, 0.3), points=40)
+    doubled = switch_branches([flip for _, flip in flips], bounds=(0.01, 0.3), points=40)
     found = bifurcations(doubled)
     return first + tuple(
-        Followed(f"{name}, {'doubled' if flip.halves % 2 == 0 else 'asymmetric'}", branch, tuple(points))
+        AnnotatedBranch(f"{name}, {'doubled' if flip.halves % 2 == 0 else 'asymmetric'}", branch, tuple(points))
         for (name, flip), branch, points in zip(flips, doubled, found, strict=True)
     )
 
@@ -77,7 +85,7 @@ def _third(p):
 
 
 def _both_ways(seeds, p):
-    """Followed of the seeds (name, mu, states (2, n), directions, bounds), all in lock-step."""
+    """AnnotatedBranch of the seeds (name, mu, states (2, n), directions, bounds), all in lock-step."""
     names, halves, states, mu, sense, low, high = [], [], [], [], [], [], []
     for name, value, state, directions, bounds in seeds:
         for direction in directions:
@@ -101,7 +109,7 @@ def _both_ways(seeds, p):
         points=120,
     )
     on_them = bifurcations(found)
-    return tuple(Followed(name, one, tuple(b)) for name, one, b in zip(names, found, on_them, strict=True))
+    return tuple(AnnotatedBranch(name, one, tuple(b)) for name, one, b in zip(names, found, on_them, strict=True))
 
 
 class Locus(NamedTuple):
@@ -121,7 +129,7 @@ def loci_in_p(low=0.1, high=3.0):
     for name, kind in ((IN_WELL, FOLD), (IN_WELL, FLIP), (LARGE, FOLD), (THIRD, FOLD), (THIRD, FLIP)):
         curves += [(f"{name}, {kind}", flaw) for place, flaw in found if (place, flaw.kind) == (name, kind)]
     start = [flaw for _, flaw in curves]
-    ways = loci(
+    ways = bifurcation_curves(
         start * 2, bounds=(low, high), direction=np.repeat([-1.0, 1.0], len(start)), step=0.05, largest=0.1, points=80
     )
     result = []
@@ -175,7 +183,7 @@ def agreement(p, mu=(0.09, 0.12, 0.15, 0.18, 0.21, 0.24), periods=500):
 
 @remembered
 def in_exponent(mu=0.2, low=0.1, high=3.0):
-    """The small orbit in a well at the forcing mu followed in p: a Followed in the order of p.
+    """The small orbit in a well at the forcing mu followed in p: a AnnotatedBranch in the order of p.
 
     Raises ConvergenceError where it does not reach both ends.
     """
@@ -191,4 +199,4 @@ def in_exponent(mu=0.2, low=0.1, high=3.0):
     )
     family = up.osc.members(np.zeros(parameter.size, dtype=int), p=parameter)
     both = OrbitBranch(family, "p", up.halves, state, parameter, multipliers, BOUND)
-    return Followed(IN_WELL, both, tuple(bifurcations([both])[0]))
+    return AnnotatedBranch(IN_WELL, both, tuple(bifurcations([both])[0]))

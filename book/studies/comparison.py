@@ -13,7 +13,8 @@ from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
 from . import small_p
-from .transients import between, integrator
+from .accuracy import integrator
+from .transients import starts_between_wells
 from .wandering import Wandering, mean_ratio, wandering
 
 P = (0.1, 0.5, 1.0, 2.0)
@@ -35,11 +36,11 @@ GRID = {0.1: (8, 5), 0.5: (8, 6), 1.0: (32, 16), 2.0: (16, 10)}  # columns and r
 def compared(p, mu=None, columns=None, rows=None, periods=240, osc=paper.OSCILLATOR, **sweep):
     """The Wandering at the exponent p for a tuple of forcings (default MU[p]): mu (n,), mu / mu_c (n,), Wandering.
 
-    columns, rows : of the grid of starts `between` the wells (default GRID[p]); sweep : how, as for `lifetimes`
+    columns, rows : of the grid of `starts_between_wells` (default GRID[p]); sweep : how, as for `lifetimes`
     """
     mu = np.array(MU[p] if mu is None else mu)
     family = replace(osc, p=p, mu=mu)
-    starts = between(columns or GRID[p][0], rows or GRID[p][1])
+    starts = starts_between_wells(columns or GRID[p][0], rows or GRID[p][1])
     ratio = mu / critical_amplitude(replace(osc, p=p))
     return mu, ratio, Wandering(*wandering(family, starts, periods, **sweep, **integrator(p)))
 
@@ -85,6 +86,20 @@ def chaotic_starts(mu, p, columns=8, rows=5, periods=199, osc=paper.OSCILLATOR, 
     found = lyapunov_spectrum(family, start, periods, 40, k=1, **sweep, **integrator(p)).exponents[0]
     chaotic = found > CHAOTIC
     return Chaotic(chaotic.mean(axis=1), *mean_ratio(np.where(chaotic, found, 0.0), 1 * chaotic), found.max(axis=1))
+
+
+@remembered
+def chaotic_exponents(mu, p=paper.P_SMALL, columns=8, rows=5, periods=400, osc=paper.OSCILLATOR):
+    """Two Chaotic for a tuple of forcings: by the paper's fixed step, and in friction time."""
+    state = small_p.starts(columns, rows)
+    family = replace(osc, p=p, mu=np.repeat(np.array(mu)[:, None], state.shape[1], axis=1))
+    start, found = np.repeat(state[:, None], len(mu), axis=1), []
+    for options in ({"method": "rk4"}, integrator(p)):
+        one = lyapunov_spectrum(family, start, periods, 40, k=1, history=False, **options).exponents[0]
+        chaotic = one > paper.THRESHOLD  # a mean that a capture has diluted is no exponent of chaos
+        mean = mean_ratio(np.where(chaotic, one, 0.0), 1 * chaotic)
+        found.append(Chaotic(chaotic.mean(axis=1), *mean, one.max(axis=1)))
+    return tuple(found)
 
 
 def at_equal_ratio(ratios=RATIOS, p=P, osc=paper.OSCILLATOR, **sizes):

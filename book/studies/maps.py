@@ -12,8 +12,8 @@ from duffing.manifolds.tangency import homoclinic_tangency
 from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
+from .accuracy import integrator
 
-TOLERANCE = {"rtol": 1e-6, "atol": 1e-8}  # a pixel's statistical error is larger by orders
 TRANSIENT, PERIODS = 60, 80
 
 
@@ -35,7 +35,7 @@ def exponent_plane(
     transient, periods : forcing periods thrown away and averaged over
     sweep : executor, progress and checkpoint as for `lyapunov_spectrum`
 
-    For p < 1 in friction time, else by the paper's own steps, which are accurate there.
+    Integrated as `accuracy` says.
     """
     checks.choice("field", field, ("p", "omega"))
     checks.count("pixels", pixels, least=2)
@@ -43,11 +43,11 @@ def exponent_plane(
     mu = checks.positive("top", top) * (np.arange(1, pixels + 1) / pixels)
     exponent = np.empty((pixels, pixels))
     p = values if field == "p" else np.full(pixels, float(osc.p))
-    for smooth, method in ((False, TOLERANCE), (True, {"method": "rk4"})):
-        columns = (p >= 1) == smooth
+    for columns in (p < 1, p >= 1):
         if columns.any():
             family = replace(osc, **{field: values[columns]}, mu=mu[:, None])
-            spectrum = lyapunov_spectrum(family, paper.START, periods, transient, k=1, **method, **sweep)
+            how = integrator(p[columns][0])
+            spectrum = lyapunov_spectrum(family, paper.START, periods, transient, k=1, **how, **sweep)
             exponent[:, columns] = spectrum.exponents[0]
     return Plane(values, mu, exponent)
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from duffing import checks, paper
-from duffing.flow import integrate, trajectory
+from duffing.flow import trajectory
 from duffing.lyapunov import lyapunov_spectrum, two_trajectory_exponent
 from duffing.melnikov import critical_amplitude
 
@@ -102,50 +102,3 @@ def motion(mu, osc=paper.OSCILLATOR, end=paper.END, every=5, start=paper.START):
 def critical_ratio(p, omega, osc=paper.OSCILLATOR):
     """mu_c / alpha of Eq. 13 for Fig. 3a: (len(p), len(omega))."""
     return critical_amplitude(replace(osc, alpha=1.0, p=np.asarray(p)[:, None], omega=np.asarray(omega)))
-
-
-class Scan(NamedTuple):
-    """lambda_1 by the paper's algorithm over candidates: alpha (a,), omega (w,), mu (m,), exponents (a, w, m);
-    amplitude (a, w): half the range of x over the last ten periods at MU_REGULAR; wells (a, w): number of wells visited
-    in that time."""
-
-    alpha: np.ndarray
-    omega: np.ndarray
-    mu: np.ndarray
-    exponents: np.ndarray
-    amplitude: np.ndarray
-    wells: np.ndarray
-
-
-@remembered
-def parameter_scan(p=paper.P_SMALL, alphas=(0.04, 0.40, 0.02), omegas=(0.5, 1.8, 0.1), osc=paper.OSCILLATOR):
-    """What the text tells of Fig. 4a to 6, computed for each candidate (alpha, omega): first, last, step of each."""
-    for name, (_, _, step) in (("alphas", alphas), ("omegas", omegas)):
-        checks.positive(f"step of {name}", step)
-    alpha, omega = (np.round(np.arange(a, b + c / 2, c), 6) for a, b, c in (alphas, omegas))
-    mu = np.round(np.arange(0.20, 0.2701, 0.01), 3)
-    family = replace(osc, p=p, alpha=alpha[:, None, None], omega=omega[:, None], mu=mu)
-    exponents = lyapunov_spectrum(family, paper.START, paper.PERIODS, 0, k=1, method="rk4").exponents[0]
-    regular = replace(osc, p=p, alpha=alpha[:, None], omega=omega, mu=paper.MU_REGULAR)
-    late = np.concatenate([[0.0], paper.PERIODS - 10 + np.arange(101) / 10])  # periods: the start, then ten times each
-    t = late[:, None] * 2 * np.pi / regular.columns()[3]
-    x = integrate(regular, paper.START, t, method="rk4").states[0, 1:].reshape(-1, *regular.shape)
-    wells = (x > 0).any(axis=0).astype(int) + (x < 0).any(axis=0)
-    return Scan(alpha, omega, mu, exponents, np.ptp(x, axis=0) / 2, wells)
-
-
-def survivors(scan):
-    """Which (alpha, omega) agree with the text on each count: dict of boolean arrays (a, w), the last one all together.
-
-    The quoted exponent is to be met within 0.03, about three times the scatter of a run of the paper's length.
-    """
-    chaotic = scan.exponents > paper.THRESHOLD
-    regular = scan.exponents[..., np.argmin(np.abs(scan.mu - paper.MU_REGULAR))]
-    criteria = {
-        "chaos at 0.27": chaotic[..., -1],
-        "no chaos from 0.20 to 0.26": ~chaotic[..., :-1].any(axis=-1),
-        "exponent 0.175 at 0.27": np.abs(scan.exponents[..., -1] - paper.LAMBDA_CHAOTIC) < 0.03,
-        "convergent at 0.25": regular < 0,
-        "one well at 0.25": scan.wells == 1,
-    }
-    return {**criteria, "all five": np.logical_and.reduce(list(criteria.values()))}

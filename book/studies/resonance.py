@@ -8,9 +8,9 @@ import scipy.special
 
 from duffing import checks, paper
 from duffing.errors import ConvergenceError
-from duffing.orbits.bifurcations import FOLD, bifurcations, loci, orbit_branches
+from duffing.orbits.bifurcations import FOLD, bifurcation_curves, bifurcations, orbit_branches
 from duffing.orbits.continuation import BOUND
-from duffing.orbits.followed import Followed, at_exponent, curves, speed
+from duffing.orbits.followed import AnnotatedBranch, at_exponent, curves, speed
 
 from ..remember import remembered
 from .bifurcations import IN_WELL, LARGE, joined, settled
@@ -20,7 +20,7 @@ EXPONENTS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
 
 @remembered
 def response(mu, p=EXPONENTS, low=0.5, turned=0.65, middle=0.9, high=2.2):
-    """In-well orbits against the frequency at the forcing mu: tuple of Followed.
+    """In-well orbits against the frequency at the forcing mu: tuple of AnnotatedBranch.
 
     From the small orbit at both ends of the range and, between the resonance and its superharmonic, both ways from the
     middle, since a curve may leave the range on top of a resonance and miss what lies beyond. Upwards from the middle
@@ -43,7 +43,7 @@ def response(mu, p=EXPONENTS, low=0.5, turned=0.65, middle=0.9, high=2.2):
 
 @remembered
 def large_response(mu, p=EXPONENTS, low=0.5, high=2.2):
-    """Symmetric orbits round both wells against the frequency, from the one at omega = 1: tuple of Followed."""
+    """Symmetric orbits round both wells against the frequency, from the one at omega = 1: tuple of AnnotatedBranch."""
     p = np.array(p)
     middle = replace(paper.OSCILLATOR, p=np.tile(p, 2), mu=mu, omega=1.0)
     start = settled(middle, (1.0, 1.4))
@@ -58,7 +58,7 @@ def _in_frequency(name, osc, guess, halves, direction, bounds, **steps):
                 f"p = {one.osc.p[0]:g}, mu = {one.osc.mu[0]:g}: the branch {name!r} ends at omega = "
                 f"{one.parameter[-1]:.4f} ({one.end}), inside its range"
             )
-    return tuple(Followed(name, one, tuple(found)) for one, found in zip(ways, bifurcations(ways), strict=True))
+    return tuple(AnnotatedBranch(name, one, tuple(found)) for one, found in zip(ways, bifurcations(ways), strict=True))
 
 
 class Threshold(NamedTuple):
@@ -76,7 +76,9 @@ def least_forcing(p=EXPONENTS, low=0.5, high=2.2):
     large = orbit_branches(seeds, settled(seeds, (1.0, 1.4)), 1, bounds=(0.1, 0.35), direction=-1, points=60)
     start = [next(one for one in found if one.kind == FOLD) for found in bifurcations(large)]
     sense = np.repeat([-1.0, 1.0], len(p))
-    ways = loci(start * 2, second="omega", bounds=(low, high), direction=sense, step=0.02, largest=0.1, points=60)
+    ways = bifurcation_curves(
+        start * 2, second="omega", bounds=(low, high), direction=sense, step=0.02, largest=0.1, points=60
+    )
     result = {}
     for value, down, up in zip(p, ways[: len(p)], ways[len(p) :], strict=True):
         u = joined(down.u, up.u)

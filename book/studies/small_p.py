@@ -12,8 +12,7 @@ from duffing.lyapunov import lyapunov_spectrum, two_trajectory_exponent
 
 from ..remember import remembered
 from . import reproduction
-
-TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}  # for curves: an exponent's statistical error is larger by many orders
+from .accuracy import CURVES
 
 
 def starts(columns=8, rows=4, osc=paper.OSCILLATOR):
@@ -30,7 +29,7 @@ def starts(columns=8, rows=4, osc=paper.OSCILLATOR):
 def exact_curve(p=paper.P_SMALL, step=0.002, last=0.4, osc=paper.OSCILLATOR):
     """lambda_1 versus mu in friction time from the paper's start, after forty periods: (mu, lambda_1), each (n,)."""
     mu = reproduction.mu_grid(step, last)
-    spectrum = lyapunov_spectrum(replace(osc, p=p, mu=mu), paper.START, 199, 40, k=1, **TOLERANCE)
+    spectrum = lyapunov_spectrum(replace(osc, p=p, mu=mu), paper.START, 199, 40, k=1, **CURVES)
     return mu, spectrum.exponents[0]
 
 
@@ -41,7 +40,7 @@ def window(columns=8, rows=4, step=0.001, first=0.255, last=0.285, periods=199, 
     state = starts(columns, rows, osc)
     family = replace(osc, mu=np.tile(mu, (state.shape[1], 1)))
     state = np.repeat(state[:, :, None], mu.size, axis=2)
-    return mu, lyapunov_spectrum(family, state, periods, 40, k=1, **TOLERANCE).exponents[0]
+    return mu, lyapunov_spectrum(family, state, periods, 40, k=1, **CURVES).exponents[0]
 
 
 class Chaos(NamedTuple):
@@ -59,7 +58,7 @@ def chaos(mu=paper.MU_CHAOTIC, columns=8, rows=4, osc=paper.OSCILLATOR):
     """lambda_1 on the chaotic attractor, from the runs of `starts` whose exponent is positive over the paper's time."""
     state = starts(columns, rows, osc)
     family = replace(osc, mu=np.full(state.shape[1], mu))
-    exponents = lyapunov_spectrum(family, state, paper.PERIODS - 40, 40, k=1, **TOLERANCE).exponents[0]
+    exponents = lyapunov_spectrum(family, state, paper.PERIODS - 40, 40, k=1, **CURVES).exponents[0]
     inside = exponents[exponents > 0]
     if inside.size < 2:
         raise ConvergenceError(
@@ -86,7 +85,7 @@ def step_study(mu, factors=(1, 10, 50), distances=(1e-4, 1e-8), osc=paper.OSCILL
     return table
 
 
-class PeriodicOrbit(NamedTuple):
+class AttractingOrbits(NamedTuple):
     """Attracting orbits of one forcing period: state (2, n) at phase 0; exponents (2, n), the logarithms of the moduli
     of the multipliers over the period, largest first; friction_time (n,) spent in a period; gap (n,), how far the
     state is from its own image."""
@@ -98,7 +97,7 @@ class PeriodicOrbit(NamedTuple):
 
 
 @remembered
-def periodic_orbit(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
+def attracting_orbits(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
     """The orbits that attract the paper's start at the forcings mu (a tuple), and their Floquet exponents."""
     family = replace(osc, p=p, mu=np.array(mu))
     t = family.period * np.array([0.0, settle, settle + 1.0])
@@ -109,14 +108,14 @@ def periodic_orbit(mu, p=paper.P_SMALL, settle=200, osc=paper.OSCILLATOR):
     largest = np.maximum(np.log(np.max(np.abs(multipliers), axis=1)), total / 2)
     exponents = np.array([largest, total - largest]) / family.period
     gap = np.max(np.abs(orbit.states[:, 2] - orbit.states[:, 1]), axis=0)
-    return PeriodicOrbit(orbit.states[:, 2], exponents, orbit.friction_time[-1], gap)
+    return AttractingOrbits(orbit.states[:, 2], exponents, orbit.friction_time[-1], gap)
 
 
 @remembered
 def dry_limit(p, mu, osc=paper.OSCILLATOR):
     """lambda_1 as p goes to zero, from the paper's start: (len(p), len(mu)); half the range of x in the last period."""
     family = replace(osc, p=np.array(p)[:, None], mu=np.array(mu))
-    exponents = lyapunov_spectrum(family, paper.START, 199, 40, k=1, **TOLERANCE).exponents[0]
+    exponents = lyapunov_spectrum(family, paper.START, 199, 40, k=1, **CURVES).exponents[0]
     t = family.period * np.concatenate([[0.0], 239 + np.arange(51) / 50])
-    x = integrate(family, paper.START, t, **TOLERANCE).states[0, 1:]
+    x = integrate(family, paper.START, t, **CURVES).states[0, 1:]
     return exponents, (np.ptp(x, axis=0) / 2).reshape(family.shape)

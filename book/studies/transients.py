@@ -15,21 +15,15 @@ from duffing.transients.lifetimes import both_wells, lifetimes
 from duffing.transients.survival import exponential, rate
 
 from ..remember import remembered
+from .accuracy import integrator
 
 SINCE = 20  # periods before a transient is chaotic: orbits that start in a basin's interior are captured sooner
-# Of lifetimes only the law is meant, so that orbits need not be exact over long times, which in chaos they cannot be.
-TOLERANCE = {"rtol": 1e-6, "atol": 1e-8}
 # A coarse bracket of the crisis for each exponent, and where the small orbits are met on their way to the fold.
 P_CRISIS, BELOW, ABOVE = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0), (0.270, 0.259, 0.252, 0.248, 0.243, 0.240, 0.239), 0.008
 FAR = 0.22
 
 
-def integrator(p):
-    """Options for `integrate`: the paper's step where the damping is smooth, which is exact enough and cheap there."""
-    return {"method": "rk4"} if p >= 1 else TOLERANCE
-
-
-def between(columns, rows):
+def starts_between_wells(columns, rows):
     """A grid of starts on and around the hump: (2, columns * rows) of x in [-1, 1] and v in [-0.4, 0.4].
 
     The basin of the large orbit, as it is before the crisis, is farther out: its orbits are not counted as wandering
@@ -40,7 +34,7 @@ def between(columns, rows):
 
 
 def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSCILLATOR, **sweep):
-    """Lifetimes of the starts `between` the wells at one forcing: time, settled, and whether in the large orbit of one
+    """Lifetimes of the `starts_between_wells` at one forcing: time, settled, and whether in the large orbit of one
     forcing period, each (columns * rows,). sweep : how, as for `lifetimes`."""
     return _sample(mu, p, columns, rows, periods, osc, **sweep)
 
@@ -48,7 +42,7 @@ def sample(mu, p=paper.P_SMALL, columns=20, rows=10, periods=1000, osc=paper.OSC
 @remembered
 def _sample(mu, p, columns, rows, periods, osc, **sweep):
     # Called in one way only, so that `sample` and `escape` share what is remembered.
-    state = between(columns, rows)
+    state = starts_between_wells(columns, rows)
     family = replace(osc, p=p, mu=np.full(state.shape[1], mu))
     lived = lifetimes(family, state, periods, **sweep, **integrator(p))
     return lived.time, lived.settled, both_wells(family, lived, **integrator(p)) & (lived.multiple == 1)
@@ -107,12 +101,41 @@ def folds(p=P_CRISIS, osc=paper.OSCILLATOR):
 
 
 @remembered
-def crises(p=P_CRISIS, points=400, steps=6, osc=paper.OSCILLATOR):
-    """The forcing (n,) of the boundary crisis for each p of the tuple, within 0.008 / 2^steps, by the paper's step."""
-    lower = np.interp(p, P_CRISIS, BELOW)
-    outer = [large_saddle(replace(osc, p=q, mu=mu)) for q, mu in zip(p, lower, strict=True)]
-    family = replace(osc, p=np.array(p))
-    return crisis(family, lower, lower + ABOVE, np.transpose(outer), steps=steps, points=points, method="rk4")
+def crises(p=P_CRISIS, points=400, steps=6, by_step=False, osc=paper.OSCILLATOR):
+    """The forcing (n,) of the boundary crisis for each p of the tuple, within 0.008 / 2^steps.
+
+    In friction time for p < 1; by_step : by the paper's step throughout, for comparison
+    """
+    p = np.array(p)
+    lower, found = np.interp(p, P_CRISIS, BELOW), np.empty(p.size)
+    outer = np.transpose([large_saddle(osc.members(0, p=q, mu=mu)) for q, mu in zip(p, lower, strict=True)])
+    for chosen, options in ((p >= 1, {"method": "rk4"}), (p < 1, {"method": "rk4"} if by_step else {})):
+        if chosen.any():
+            ends, family = lower[chosen], replace(osc, p=p[chosen])
+            found[chosen] = crisis(family, ends, ends + ABOVE, outer[:, chosen], steps=steps, points=points, **options)
+    return found
+
+
+@remembered
+def crisis_exponent(p=P_CRISIS, osc=paper.OSCILLATOR):
+    """The exponent (n,) of the mean lifetime above the crisis, (mu - mu_X)^-gamma, for each p of the tuple.
+
+    gamma = 1/2 + ln |l1| / |ln |l2||, l1, l2 the multipliers of the saddle orbit whose unstable manifold touches the
+    border (Grebogi, Ott, Romeiras and Yorke 1987, heteroclinic tangency); 1/2 where l2 = 0.
+    """
+    mu = crises(p)
+    outer = [large_saddle(osc.members(0, p=q, mu=value)) for q, value in zip(p, mu, strict=True)]
+    larger, smaller = saddles(replace(osc, p=np.array(p), mu=mu), np.transpose(outer)).multipliers
+    return 0.5 + np.divide(np.log(larger), -np.log(smaller, where=smaller > 0, out=np.full(mu.size, -np.inf)))
+
+
+@remembered
+def below_fold(distance, p=paper.P_SMALL, columns=20, rows=20, periods=1000, **sweep):
+    """Mean lifetimes of chaos at the distances in mu below the fold of the small orbits, and one standard error: (n,)
+    each."""
+    mu = folds((p,))[0][0]
+    found = [exponential(*sample(float(mu - d), p, columns, rows, periods, **sweep)[:2], SINCE) for d in distance]
+    return np.array([one.mean for one in found]), np.array([one.error for one in found])
 
 
 @remembered
@@ -123,7 +146,7 @@ def edge(mu, p=paper.P_SMALL, points=600, osc=paper.OSCILLATOR, **options):
 
 
 @remembered
-def ghost(distance, p=paper.P_SMALL, longest=2000, osc=paper.OSCILLATOR):
+def passage_time(distance, p=paper.P_SMALL, longest=2000, osc=paper.OSCILLATOR):
     """Periods (n,) that an orbit needs to leave the place of the fold by 0.1, at the distances in mu above it."""
     mu, state = folds((p,))
     family = replace(osc, p=p, mu=mu[0] + np.array(distance))

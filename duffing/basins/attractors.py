@@ -14,7 +14,7 @@ from ..blocks import block_for, over_blocks
 from ..flow import integrate
 from ..lyapunov import lyapunov_spectrum
 from ..orbits.periodic import half_return, path, periodic_orbits
-from .capture import UNRESOLVED, capture, look, points_of
+from .capture import UNRESOLVED, capture, first_capture, points_of
 from .trapping import Trap, trap
 
 CELL = 0.02  # width of a chaotic attractor's cells in x and v
@@ -43,7 +43,7 @@ class Attractor(NamedTuple):
     place : "left" or "right" (of x = 0 all the time) or "both"
     period : in forcing periods; 0 for a chaotic attractor
     points (2, n) : its stroboscopic points, n = period, or a sample of a chaotic attractor
-    swing : half the range of x
+    amplitude : half the range of x
     multipliers : complex (2,), of the half map's power that closes the orbit (`periodic`); empty for chaos
     region : Trap or Cells
     """
@@ -51,7 +51,7 @@ class Attractor(NamedTuple):
     place: str
     period: int
     points: np.ndarray
-    swing: float
+    amplitude: float
     multipliers: np.ndarray
     region: Trap | Cells
 
@@ -107,10 +107,11 @@ def settle(
 
 
 def ordered(attractors):
-    """The same in the order left, right, both; in a place by their swing, chaotic ones last."""
+    """The same in the order left, right, both; in a place by their amplitude, chaotic ones last."""
 
     def rank(one):
-        return ("left", "right", "both").index(one.place), one.period == 0, round(one.swing, 6), -one.points[0].max()
+        place = ("left", "right", "both").index(one.place)
+        return place, one.period == 0, round(one.amplitude, 6), -one.points[0].max()
 
     return tuple(sorted(attractors, key=rank))
 
@@ -177,8 +178,8 @@ def _mirrored(osc, state, multipliers, halves, options):
         if region is not None:
             period = halves if halves % 2 else halves // 2
             curve = path(osc, point, 2 * period, 64 * period)
-            swing = float(np.ptp(curve[0]) / 2)
-            yield Attractor(_place(curve[0]), period, curve[:, :-1:64], swing, multipliers, region)
+            amplitude = float(np.ptp(curve[0]) / 2)
+            yield Attractor(_place(curve[0]), period, curve[:, :-1:64], amplitude, multipliers, region)
 
 
 def _chaotic(osc, states, known, options):
@@ -186,7 +187,7 @@ def _chaotic(osc, states, known, options):
     sample = states[:, :: -(-states.shape[1] // _WITNESSES)]
     points = points_of(osc, sample, _PROOF, options)
     regions = [(one.period, one.region) for one in known]
-    if np.any(look(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED):
+    if np.any(first_capture(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED):
         return ()
     spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=200, transient=0, k=1, **options)
     if np.any(spectrum.exponents <= 3 * spectrum.error):
@@ -199,8 +200,8 @@ def _chaotic(osc, states, known, options):
     found = []
     for place in sorted(set(places)):
         cloud = points[:, :, places == place].reshape(2, -1)
-        swing = float(np.ptp(half[0]) / 2)
-        found.append(Attractor(str(place), 0, cloud, swing, np.empty(0, dtype=complex), _cells(cloud)))
+        amplitude = float(np.ptp(half[0]) / 2)
+        found.append(Attractor(str(place), 0, cloud, amplitude, np.empty(0, dtype=complex), _cells(cloud)))
     return tuple(found)
 
 

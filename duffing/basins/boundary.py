@@ -14,7 +14,7 @@ import numpy as np
 from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate
-from .fates import LAST, LOOKS, read
+from .fates import LAST, LOOKS, classify_path
 from .uncertainty import Dimension
 
 _CELLS = 128  # of the line, to begin with
@@ -75,7 +75,7 @@ def line_of_starts(osc, start, end, periods=12, **options):
     def follow(s):
         family = replace(osc, mu=np.full(s.size, osc.mu))
         images = integrate(family, start + s * (end - start), t, **options).states
-        return images.astype(np.float32), read(images)  # the images are only compared with `reach`
+        return images.astype(np.float32), classify_path(images)  # the images are only compared with `reach`
 
     return follow
 

@@ -27,7 +27,7 @@ def capture(osc, state, regions, first, last, start, **options):
         if points is None:
             step = min(_CHUNK, last - done)
             points, done = points_of(one, result[2:4, live], step, options)[:, 1:], done + step
-        label, when, result[4:, live] = look(regions, points, result[4:, live])
+        label, when, result[4:, live] = first_capture(regions, points, result[4:, live])
         result[2:4, live] = points[:, -1]
         hit = label != UNRESOLVED
         result[0, live[hit]], result[1, live[hit]] = label[hit], done - points.shape[1] + 1 + when[hit]
@@ -36,7 +36,7 @@ def capture(osc, state, regions, first, last, start, **options):
             return result
 
 
-def look(regions, points, streaks):
+def first_capture(regions, points, streaks):
     """Label and number of the first of the points (2, c, n) that is caught; the streaks (len(regions), n) in cells."""
     label, when = np.full(points.shape[2], UNRESOLVED), np.full(points.shape[2], points.shape[1])
     streaks = streaks.copy()

@@ -20,7 +20,7 @@ LAST = 4  # periods that are read, unless more are asked for
 _REPEATS = 0.05  # distance in (x, v) of successive stroboscopic points of a motion that repeats itself
 
 
-def fate(osc, states, periods=60, last=LAST, executor=None, progress=None, checkpoint=None, **options):
+def classify(osc, states, periods=60, last=LAST, executor=None, progress=None, checkpoint=None, **options):
     """Fates (*family) of the states (2, *family) at phase 0 after so many forcing periods.
 
     osc : a family, or a single oscillator with states (2, *shape)
@@ -38,14 +38,14 @@ def fate(osc, states, periods=60, last=LAST, executor=None, progress=None, check
 
 
 def _fates(osc, state, periods, last, **options):
-    """What `fate` does with a block: array (1, n)."""
+    """What `classify` does with a block: array (1, n)."""
     t = np.append(0, periods - last + np.arange(last * LOOKS + 1) / LOOKS)[:, None] * osc.period
     if np.ptp(osc.period) == 0:
         t = t[:, 0]  # the same for all members, which the integrators need to check only once
-    return read(integrate(osc, state, t, **options).states[:, 1:], last)[None]
+    return classify_path(integrate(osc, state, t, **options).states[:, 1:], last)[None]
 
 
-def read(path, last=LAST):
+def classify_path(path, last=LAST):
     """Fates (n,) from the last periods of the paths (2, m, n), looked at LOOKS times a period."""
     x, points = path[0, -last * LOOKS - 1 :], path[:, -last * LOOKS - 1 :: LOOKS]
     repeats = np.hypot(*np.diff(points, axis=1)).max(axis=0) < _REPEATS

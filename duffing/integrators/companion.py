@@ -7,8 +7,9 @@ exponents contain it.
 import numpy as np
 
 from .. import checks
-from .forcing import in_blocks
-from .rk4 import LANES, WIDTH, advance, check_finite, checked
+from .forcing import map_chunks
+from .rk4 import LANES, advance, check_finite, checked
+from .vectors import EIGHT
 
 
 def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, threads=None):
@@ -29,7 +30,7 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
     growth = np.empty((periods, columns.shape[1]))
 
     def run(members, padded, h, law, forcing):
-        lanes = np.arange(len(padded))
+        lanes, parameters = np.arange(len(padded)), np.ascontiguousarray(columns[:, padded])
         ends, nothing = np.empty((2, 2, 2, len(lanes))), (np.empty((0, 1, 0)), np.empty((0, 0, 0, 0)))
         start = np.array([[d0], [0.0]])
         pair = np.repeat(state[None, :, padded], 2, axis=0)
@@ -37,8 +38,8 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
             pair[1] = pair[0] + start
             before = np.hypot(*(pair[1] - pair[0]))
             for each in range(2):
-                advance(columns[:, padded], pair[each], h, *forcing, law, (), lanes, ends[each], *nothing)
-            check_finite(columns[:, padded], *ends)
+                advance(parameters, pair[each], h, *forcing, law, 0, lanes, ends[each], *nothing)
+            check_finite(parameters, *ends)
             pair = np.ascontiguousarray(ends[:, :, 1])
             apart = pair[1] - pair[0]
             distance = np.hypot(*apart)
@@ -47,5 +48,5 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
             growth[i, members] = np.log(distance / before)[: len(members)]
             start = np.where(merged, [[d0], [0.0]], apart * (d0 / distance))
 
-    in_blocks(run, columns, t, steps_per_period, threads, LANES, WIDTH)
+    map_chunks(run, columns, t, steps_per_period, threads, LANES, EIGHT)
     return growth

@@ -2,15 +2,19 @@
 
 Numba keeps compiled code by the file that a function stands in, and does not see an edit in a function that it calls:
 an edited kernel would go on giving the old numbers. So the cache lies in a folder named by a hash of all modules that
-hold compiled code.
+hold compiled code. Where no folder may be written to, every process compiles for itself, and says so once.
 """
 
 import hashlib
 import os
 import shutil
+import sys
+import warnings
+from functools import wraps
 from pathlib import Path
 
 import numba
+from numba.core import event
 
 PACKAGE = Path(__file__).parents[1]
 
@@ -37,6 +41,7 @@ def _folder():
 
 
 _FOLDER = _folder()
+_UNCACHED = []  # what is compiled without a cache
 
 
 def compiled(function=None, **options):
@@ -46,8 +51,62 @@ def compiled(function=None, **options):
     """
     if function is None:
         return lambda function: compiled(function, **options)
+    if numba.config.DISABLE_JIT:
+        return _refused(function)
+    options = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, **options}
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _FOLDER
     try:
-        return numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
+        return numba.njit(cache=not _UNCACHED, **options)(function)
+    except RuntimeError as reason:
+        if "no locator available" not in str(reason):
+            raise
     finally:
         numba.config.CACHE_DIR = before
+    _UNCACHED.append(function)
+    warnings.warn(
+        "compiled code cannot be kept: neither the folder of the package nor one below the home folder may be written "
+        "to. Each process compiles anew, for some seconds; NUMBA_CACHE_DIR can name a folder",
+        RuntimeWarning,
+        stacklevel=2,
+    )
+    return numba.njit(**options)(function)
+
+
+class _Notice(event.Listener):
+    """Numba tells it of each compilation that the cache does not spare."""
+
+    def __init__(self, kernel, what):
+        self.kernel, self.what = kernel, what
+
+    def on_start(self, event):
+        if event.data["dispatcher"] is self.kernel and sys.stderr is not None and sys.stderr.isatty():
+            print(f"duffing: compiling {self.what}, once on this machine; this takes a while", file=sys.stderr)
+
+    def on_end(self, event):
+        """Nothing to say."""
+
+
+def announced(kernel, what):
+    """The kernel, which says so on a terminal's standard error when it is being compiled, for that takes seconds."""
+    event.register("numba:compile", _Notice(kernel, what))
+    return kernel
+
+
+def inlined(function):
+    """A function that becomes part of each compiled function that calls it; it cannot be called from Python."""
+    return numba.njit(forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+
+
+def inner(function):
+    """A function that compiled functions call; it cannot be called from Python, and has no place in the cache."""
+    return numba.njit(nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+
+
+def _refused(function):
+    """What stands for a compiled function where numba compiles nothing."""
+
+    @wraps(function)
+    def refuse(*arguments, **options):
+        raise RuntimeError("NUMBA_DISABLE_JIT is set: the integrators only work compiled, unset it")
+
+    return refuse

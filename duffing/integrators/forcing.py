@@ -21,7 +21,7 @@ with mpmath.workprec(100):
     _COSINE = tuple(float((-4 * mpmath.pi**2) ** k / mpmath.factorial(2 * k)) for k in range(13))
 
 
-def in_blocks(run, columns, t, steps_per_period, threads, lanes, width):
+def map_chunks(run, columns, t, steps_per_period, threads, lanes, width):
     """Call run(members, padded, h, law, forcing) for blocks of members with one p and one sequence of forcing phases.
 
     Parameters

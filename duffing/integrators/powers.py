@@ -15,10 +15,9 @@ from typing import NamedTuple
 
 import mpmath
 import numpy as np
-from numba import njit, types
-from numba.extending import intrinsic
 
-from .compiled import compiled
+from .compiled import compiled, inlined
+from .vectors import bits, fma, from_bits, take
 
 DEGREE = 8
 MOST_BITS = 10  # a table of 2048 x 2^10 doubles, 16 MB: enough for |q| up to about 200
@@ -109,37 +108,21 @@ def _binary_powers(q):
     return values
 
 
-@intrinsic
-def fma(typingctx, a, b, c):
-    """a b + c with one rounding (compiled code only).
-
-    Spelled out, because what a compiler fuses by itself differs from machine to machine, and chaos shows it. A
-    processor without the instruction (x86 before 2013) gets the same bits from a library, slowly.
-    """
-
-    def codegen(context, builder, signature, arguments):
-        return builder.fma(*arguments)
-
-    return types.float64(types.float64, types.float64, types.float64), codegen
-
-
-@njit(forceinline=True)
+@inlined
 def evaluate(v, q):
-    """max(|v|, q.least)^q to a few units in the last place, for one double v and a set-up q (compiled code only)."""
+    """max(|v|, q.least)^q to a few units in the last place, for a double v, or eight, and a set-up q."""
     c = q.coefficients
     a = max(abs(v), q.least)
-    field = np.float64(a).view(np.uint64)
-    cell = field >> (np.uint64(52) - q.bits)
-    fraction = (field & np.uint64(0x000FFFFFFFFFFFFF)) | np.uint64(0x3FF0000000000000)
-    m = np.uint64(fraction).view(np.float64)
+    cell = bits(a) >> (np.uint64(52) - q.bits)
+    m = from_bits((bits(a) & np.uint64(0x000FFFFFFFFFFFFF)) | np.uint64(0x3FF0000000000000))
     # One rounding: m/c - 1 to the last place, where rounding m/c first would cost q/2 units of the result.
-    r = fma(m, q.reciprocals[cell & ((np.uint64(1) << q.bits) - np.uint64(1))], -1.0)
+    r = fma(m, take(q.reciprocals, cell & ((np.uint64(1) << q.bits) - np.uint64(1))), -1.0)
     # Estrin's form: the products of one line wait for nothing but the line before.
     r2 = r * r
     r4 = r2 * r2
     low = fma(fma(c[3], r, c[2]), r2, fma(c[1], r, c[0]))
     high = fma(fma(c[7], r, c[6]), r2, fma(c[5], r, c[4]))
-    return q.table[cell] * fma(fma(c[8], r4, high), r4, low)
+    return take(q.table, cell) * fma(fma(c[8], r4, high), r4, low)
 
 
 @compiled

@@ -7,31 +7,33 @@ All arithmetic that feeds back into a solution is spelled out in operations that
 depend on the machine, on threads or on the family that a member belongs to: in chaos nothing less is reproducible.
 """
 
-import os
+import math
 
 import numpy as np
-from numba import carray, njit
 
 from .. import checks
 from ..errors import DivergedError
-from .compiled import compiled
-from .forcing import in_blocks
-from .powers import evaluate, fma
-from .solution import Orbit
-from .vectors import stack, widest_vectors
+from . import processors
+from .compiled import compiled, inlined
+from .forcing import map_chunks
+from .memory import stack, views, widest_vectors
+from .powers import evaluate
+from .solution import Solution
+from .vectors import EIGHT, fma, root, where
 
-# Trajectories of a block (its rows stay in the first-level cache) and of an inner loop (the widest vector of doubles).
-LANES, WIDTH = 64, 8
+# Trajectories of a block: its rows stay in the first-level cache.
+LANES = 64
 # Steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval.
 BETWEEN = 50
 
-# Rows of a block's workspace: the state and tangents at the start of the step, at the stage, and the sum of slopes;
-# then the step, the parameters, and the tangents as last made orthonormal.
-_X, _V, _TANGENT = 0, 1, 2
-_START, _STAGE, _SUM = 0, 6, 12
-_H, _ALPHA, _P, _MU, _DELTA, _GAMMA, _Q = 18, 19, 20, 21, 22, 23, 24
-_ROWS = 28
-_BLOCK = _ROWS * LANES
+# A block in parts, each of some rows: the state with its tangents at the start of a step, where slopes are asked for,
+# and the sum of slopes; the parameters and the step; the tangents as last made orthonormal, and how long they were.
+NOW, STAGE, SUM, OSC, FRAME, LENGTHS = range(6)
+PARTS = ((6,), (6,), (6,), (6,), (4,), (2,))
+X, V, XI1, ETA1, XI2, ETA2 = range(6)
+ALPHA, P, MU, DELTA, GAMMA, H = range(6)
+BLOCK = LANES * sum(map(math.prod, PARTS))
+lanes, eights = views(PARTS, LANES)
 
 
 def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
@@ -43,11 +45,11 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     state : (2,), (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing times; each interval is cut into the least number of equal steps
     tangents : 0, 1 or 2 tangent vectors, made orthonormal at every time
-    threads : at most so many at once (default: the processors)
+    threads : at most so many at once (default: the processors that the process may use)
 
     Returns
     -------
-    Orbit : states (2, n, N), growth (tangents, n - 1, N), propagators (2, 2, n - 1, N) for two tangents
+    Solution : states (2, n, N), growth (tangents, n - 1, N), propagators (2, 2, n - 1, N) for two tangents
 
     Raises
     ------
@@ -66,17 +68,17 @@ def integrate(osc, state, t, tangents=0, steps_per_period=500, threads=None):
     propagators = np.tile(np.eye(2)[:, :, None, None], (n - 1, size)) if tangents == 2 else np.empty((0, 0, 0, 0))
 
     def run(members, padded, h, law, forcing):
-        start = (columns[:, padded], state[:, padded], h)
-        advance(*start, *forcing, law, (0,) * tangents, members, states, growth, propagators)
+        start = (np.ascontiguousarray(columns[:, padded]), np.ascontiguousarray(state[:, padded]), h)
+        advance(*start, *forcing, law, tangents, members, states, growth, propagators)
 
-    in_blocks(run, columns, t, steps_per_period, threads, LANES, WIDTH)
+    map_chunks(run, columns, t, steps_per_period, threads, LANES, EIGHT)
     rest = _rests(columns, state)
     growth[..., rest] = 0.0
     if tangents == 2:
         propagators[..., rest] = np.diag([1.0, 0.0])[:, :, None, None]
     check_finite(columns, states, growth, propagators)
     growth[1:, :, rest] = -np.inf
-    return Orbit(states, growth, propagators if tangents == 2 else None)
+    return Solution(states, growth, propagators if tangents == 2 else None)
 
 
 def checked(osc, state, t, steps_per_period, threads):
@@ -88,7 +90,7 @@ def checked(osc, state, t, steps_per_period, threads):
         t = np.stack([checks.times(column) for column in np.transpose(t)], axis=1)
     else:
         t = checks.times(t)[:, None]
-    threads = os.cpu_count() if threads is None else checks.count("threads", threads)
+    threads = processors.available() if threads is None else checks.count("threads", threads)
     return columns, state, t, checks.count("steps_per_period", steps_per_period), threads
 
 
@@ -112,123 +114,137 @@ def _rests(columns, state):
 
 
 @compiled
-def advance(columns, state, h, cosines, offsets, counts, law, basis, members, states, growth, propagators):
-    """Advance one block through all intervals. law: None for p = 1; basis: a tuple as long as there are tangents.
+def advance(columns, state, h, cosines, offsets, counts, law, tangents, members, states, growth, propagators):
+    """Advance one block through all intervals. law: None for p = 1; tangents: 0, 1 or 2.
 
     growth comes in as zeros, propagators as identities.
     """
     widest_vectors()
-    blocks = carray(stack(_BLOCK), (LANES // WIDTH, _ROWS, WIDTH))[: state.shape[1] // WIDTH]
-    for lane in range(state.shape[1]):
-        b, l = blocks[lane // WIDTH], lane % WIDTH
-        b[_X, l], b[_V, l] = state[0, lane], state[1, lane]
-        b[_ALPHA, l], b[_P, l], b[_MU, l] = columns[0, lane], columns[1, lane], columns[2, lane]
-        b[_DELTA, l], b[_GAMMA, l] = columns[4, lane], columns[5, lane]
-        for j in range(len(basis)):
-            for i in range(2):
-                b[_TANGENT + 2 * j + i, l] = b[_Q + 2 * j + i, l] = 1.0 if i == j else 0.0
-    for lane, member in enumerate(members):
-        states[0, 0, member], states[1, 0, member] = state[0, lane], state[1, lane]
+    block = stack(BLOCK)
+    now, osc, frame, lengths = lanes(block, NOW), lanes(block, OSC), lanes(block, FRAME), lanes(block, LENGTHS)
+    vectors = state.shape[1] // EIGHT
+    for l in range(state.shape[1]):
+        now[X, l], now[V, l] = state[0, l], state[1, l]
+        osc[ALPHA, l], osc[P, l], osc[MU, l] = columns[0, l], columns[1, l], columns[2, l]
+        osc[DELTA, l], osc[GAMMA, l] = columns[4, l], columns[5, l]
+        now[XI1, l] = now[ETA2, l] = frame[0, l] = frame[3, l] = 1.0
+    for l, member in enumerate(members):
+        states[0, 0, member], states[1, 0, member] = state[0, l], state[1, l]
     for i in range(len(counts)):
-        for lane in range(state.shape[1]):
-            blocks[lane // WIDTH, _H, lane % WIDTH] = h[i, lane]
+        for l in range(state.shape[1]):
+            osc[H, l] = h[i, l]
         at, end = offsets[i], offsets[i] + 2 * counts[i]
         while at < end:
-            for now in range(at, min(at + 2 * BETWEEN, end), 2):
-                _step(blocks, law, basis, cosines[now], cosines[now + 1], cosines[now + 2])
+            for k in range(at, min(at + 2 * BETWEEN, end), 2):
+                _step(block, vectors, law, tangents, cosines[k], cosines[k + 1], cosines[k + 2])
             at += 2 * BETWEEN
-            for lane, member in enumerate(members):
-                if len(basis) == 2:
-                    _propagate(blocks[lane // WIDTH], lane % WIDTH, propagators, i, member)
-                if len(basis) > 0:
-                    _orthonormalise(blocks[lane // WIDTH], lane % WIDTH, basis, growth, i, member)
-        for lane, member in enumerate(members):
-            b, l = blocks[lane // WIDTH], lane % WIDTH
-            states[0, i + 1, member], states[1, i + 1, member] = b[_X, l], b[_V, l]
+            if tangents == 2:
+                for l, member in enumerate(members):
+                    _propagate(now, frame, l, propagators, i, member)
+            if tangents > 0:
+                _orthonormalise(block, vectors, tangents)
+                for l, member in enumerate(members):
+                    for j in range(tangents):
+                        growth[j, i, member] += np.log(lengths[j, l])
+        for l, member in enumerate(members):
+            states[0, i + 1, member], states[1, i + 1, member] = now[X, l], now[V, l]
 
 
-@njit(forceinline=True)
-def _step(blocks, law, basis, c0, c1, c2):
+@inlined
+def _step(block, vectors, law, tangents, c0, c1, c2):
     """y <- y + h/6 (k1 + 2 k2 + 2 k3 + k4) in every lane; c0, c1, c2: cos(omega t) at the start, middle and end.
 
     Without a power the whole step stays in registers. With one, the lanes are the inner loop of each stage: many
     powers are then under way at once, instead of four that wait for one another.
     """
+    now, argument, total, osc = eights(block, NOW), eights(block, STAGE), eights(block, SUM), eights(block, OSC)
     if law is None:
-        for c in range(len(blocks)):
-            for l in range(WIDTH):
-                _stage(blocks[c], l, law, basis, c0, _START, 1.0, 0.5)
-                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 0.5)
-                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 1.0)
-                _stage(blocks[c], l, law, basis, c2, _STAGE, 1.0, 0.0)
+        # The number of tangents as a constant: without a branch between the stages nothing goes through memory.
+        if tangents == 0:
+            for c in range(vectors):
+                _whole_step(now, argument, total, osc, c, 0, c0, c1, c2)
+        elif tangents == 1:
+            for c in range(vectors):
+                _whole_step(now, argument, total, osc, c, 1, c0, c1, c2)
+        else:
+            for c in range(vectors):
+                _whole_step(now, argument, total, osc, c, 2, c0, c1, c2)
     else:
-        for c in range(len(blocks)):
-            for l in range(WIDTH):
-                _stage(blocks[c], l, law, basis, c0, _START, 1.0, 0.5)
-        for c in range(len(blocks)):
-            for l in range(WIDTH):
-                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 0.5)
-        for c in range(len(blocks)):
-            for l in range(WIDTH):
-                _stage(blocks[c], l, law, basis, c1, _STAGE, 2.0, 1.0)
-        for c in range(len(blocks)):
-            for l in range(WIDTH):
-                _stage(blocks[c], l, law, basis, c2, _STAGE, 1.0, 0.0)
+        for c in range(vectors):
+            stage(now, now, argument, total, osc, c, law, tangents, c0, 0.0, 0.5)
+        for c in range(vectors):
+            stage(now, argument, argument, total, osc, c, law, tangents, c1, 2.0, 0.5)
+        for c in range(vectors):
+            stage(now, argument, argument, total, osc, c, law, tangents, c1, 2.0, 1.0)
+        for c in range(vectors):
+            stage(now, argument, now, total, osc, c, law, tangents, c2, 1.0, 0.0)
 
 
-@njit(forceinline=True)
-def _stage(b, l, law, basis, cosine, at, weight, ahead):
-    """Slope k at the rows `at`; sum += weight k; next argument = start + ahead h k (ahead = 0: the step's end)."""
-    x, v = b[at + _X, l], b[at + _V, l]
-    stiffness = b[_GAMMA, l] * x * x
+@inlined
+def _whole_step(now, argument, total, osc, c, tangents, c0, c1, c2):
+    stage(now, now, argument, total, osc, c, None, tangents, c0, 0.0, 0.5)
+    stage(now, argument, argument, total, osc, c, None, tangents, c1, 2.0, 0.5)
+    stage(now, argument, argument, total, osc, c, None, tangents, c1, 2.0, 1.0)
+    stage(now, argument, now, total, osc, c, None, tangents, c2, 1.0, 0.0)
+
+
+@inlined
+def stage(now, at, to, total, osc, c, law, tangents, cosine, weight, ahead):
+    """Slope k at `at`; total += weight k; the next argument is now + ahead h k (ahead = 0: the step's end).
+
+    weight = 0 is the first stage's, with which the total begins.
+    """
+    x, v = at[X, c], at[V, c]
+    stiffness = osc[GAMMA, c] * x * x
     # |v|^(p-1), the costly part, serves the damping v |v|^(p-1) and the tangent's p |v|^(p-1).
-    friction = b[_ALPHA, l] if law is None else b[_ALPHA, l] * evaluate(v, law)
-    force = fma(-(b[_DELTA, l] + stiffness), x, b[_MU, l] * cosine)
-    _use(b, l, _X, v, at, weight, ahead)
-    _use(b, l, _V, fma(-friction, v, force), at, weight, ahead)
-    slope = friction if law is None else b[_P, l] * friction
-    for j in range(len(basis)):
-        row = _TANGENT + 2 * j
-        xi, eta = b[at + row, l], b[at + row + 1, l]
-        _use(b, l, row, eta, at, weight, ahead)
-        _use(b, l, row + 1, fma(-slope, eta, -fma(3.0, stiffness, b[_DELTA, l]) * xi), at, weight, ahead)
+    friction = osc[ALPHA, c] if law is None else osc[ALPHA, c] * evaluate(v, law)
+    force = fma(-(osc[DELTA, c] + stiffness), x, osc[MU, c] * cosine)
+    xi1, eta1, xi2, eta2 = at[XI1, c], at[ETA1, c], at[XI2, c], at[ETA2, c]
+    _use(now, to, total, osc, c, X, v, weight, ahead)
+    _use(now, to, total, osc, c, V, fma(-friction, v, force), weight, ahead)
+    slope = friction if law is None else osc[P, c] * friction
+    spring = -fma(3.0, stiffness, osc[DELTA, c])
+    if tangents > 0:
+        _use(now, to, total, osc, c, XI1, eta1, weight, ahead)
+        _use(now, to, total, osc, c, ETA1, fma(-slope, eta1, spring * xi1), weight, ahead)
+    if tangents > 1:
+        _use(now, to, total, osc, c, XI2, eta2, weight, ahead)
+        _use(now, to, total, osc, c, ETA2, fma(-slope, eta2, spring * xi2), weight, ahead)
 
 
-@njit(forceinline=True)
-def _use(b, l, row, k, at, weight, ahead):
-    """Enter one component's slope k into the sum and into the next stage's argument or, at the last stage, the step."""
-    total = k if at == _START else fma(weight, k, b[_SUM + row, l])
+@inlined
+def _use(now, to, total, osc, c, row, k, weight, ahead):
+    """Enter one row's slope k into the sum and into the next stage's argument or, at the last stage, the step."""
+    summed = k if weight == 0.0 else fma(weight, k, total[row, c])
     if ahead == 0.0:
-        b[row, l] = fma(b[_H, l] * (1.0 / 6.0), total, b[row, l])
+        to[row, c] = fma(osc[H, c] * (1.0 / 6.0), summed, now[row, c])
     else:
-        b[_SUM + row, l] = total
-        b[_STAGE + row, l] = fma(b[_H, l] * ahead, k, b[row, l])
+        total[row, c] = summed
+        to[row, c] = fma(osc[H, c] * ahead, k, now[row, c])
 
 
-@njit(forceinline=True)
-def _propagate(b, l, propagators, i, member):
+@inlined
+def _propagate(now, frame, l, propagators, i, member):
     """Propagator <- W Q^T propagator: W are the tangents now, Q what they were when last made orthonormal."""
     for j in range(2):
         x, v = propagators[0, j, i, member], propagators[1, j, i, member]
-        first = b[_Q, l] * x + b[_Q + 1, l] * v
-        second = b[_Q + 2, l] * x + b[_Q + 3, l] * v
-        for k in range(2):
-            propagators[k, j, i, member] = b[_TANGENT + k, l] * first + b[_TANGENT + 2 + k, l] * second
+        first = frame[0, l] * x + frame[1, l] * v
+        second = frame[2, l] * x + frame[3, l] * v
+        propagators[0, j, i, member] = now[XI1, l] * first + now[XI2, l] * second
+        propagators[1, j, i, member] = now[ETA1, l] * first + now[ETA2, l] * second
 
 
-@njit(forceinline=True)
-def _orthonormalise(b, l, basis, growth, i, member):
-    """Gram-Schmidt: the tangents become orthonormal, the logarithms of the diagonal of R are added to growth."""
-    xi, eta = b[_TANGENT, l], b[_TANGENT + 1, l]
-    length = np.sqrt(xi * xi + eta * eta)
-    xi, eta = xi / length, eta / length
-    growth[0, i, member] += np.log(length)
-    b[_TANGENT, l], b[_TANGENT + 1, l] = xi, eta
-    b[_Q, l], b[_Q + 1, l] = xi, eta
-    if len(basis) == 2:
+@inlined
+def _orthonormalise(block, vectors, tangents):
+    """Gram-Schmidt: the tangents become orthonormal, the diagonal of R goes to `LENGTHS`."""
+    now, frame, lengths = eights(block, NOW), eights(block, FRAME), eights(block, LENGTHS)
+    for c in range(vectors):
+        xi, eta = now[XI1, c], now[ETA1, c]
+        length = root(xi * xi + eta * eta)
+        xi, eta = xi / length, eta / length
         # In the plane the second direction is known: at right angles to the first, on the second vector's side.
-        height = xi * b[_TANGENT + 3, l] - eta * b[_TANGENT + 2, l]
-        side = 1.0 if height >= 0.0 else -1.0
-        growth[1, i, member] += np.log(abs(height))
-        b[_TANGENT + 2, l], b[_TANGENT + 3, l] = -side * eta, side * xi
-        b[_Q + 2, l], b[_Q + 3, l] = -side * eta, side * xi
+        height = xi * now[ETA2, c] - eta * now[XI2, c]
+        side = where(height >= 0.0, 1.0, -1.0)
+        lengths[0, c], lengths[1, c] = length, abs(height)
+        now[XI1, c], now[ETA1, c] = frame[0, c], frame[1, c] = xi, eta
+        now[XI2, c], now[ETA2, c] = frame[2, c], frame[3, c] = -side * eta, side * xi

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 
-class Orbit(NamedTuple):
+class Solution(NamedTuple):
     """Solutions of a family of N members at n times, with k tangent vectors carried along.
 
     states : (2, n, N) x and v at the times; states[:, 0] is the start

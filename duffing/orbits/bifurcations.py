@@ -121,7 +121,7 @@ def bifurcations(branches):
     return [sorted(found, key=lambda one: one.index) for found in result]
 
 
-def switched(flips, *, field="mu", bounds=(0.0, 0.5), distance=0.01, options=None, **steps):
+def switch_branches(flips, *, field="mu", bounds=(0.0, 0.5), distance=0.01, options=None, **steps):
     """The branches of orbits with twice the `halves` that leave the flips: a list of OrbitBranch.
 
     The asymmetric orbits at a symmetry breaking, the doubled ones at a period doubling. The first point is off the old
@@ -136,7 +136,7 @@ def switched(flips, *, field="mu", bounds=(0.0, 0.5), distance=0.01, options=Non
     )
 
 
-def loci(found, *, field="mu", second="p", bounds=(0.1, 3.0), options=None, **steps):
+def bifurcation_curves(found, *, field="mu", second="p", bounds=(0.1, 3.0), options=None, **steps):
     """Curves of bifurcations in the plane of two parameters: a list of Branch, u = (x, v, field), parameter = second.
 
     found : list of Bifurcation, the starts; bounds : of the second parameter; steps : as for `follow_branches`

@@ -12,7 +12,7 @@ from .periodic import cycle, path, periodic_orbit
 DRAWING = {"rtol": 1e-7, "atol": 1e-9}  # for curves: a line is wider than the error
 
 
-class Followed(NamedTuple):
+class AnnotatedBranch(NamedTuple):
     """A branch, the name of the orbits on it and the bifurcations found (a tuple)."""
 
     name: str

@@ -19,7 +19,6 @@ from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate
 
-TOLERANCE = {"rtol": 1e-10, "atol": 1e-12}
 _STEPS = 25
 _LONGEST = 0.3  # a Newton step is cut to this length
 _FAR = 5.0  # no orbit is looked for beyond
@@ -51,7 +50,7 @@ def half_return(osc, state, halves=2, **options):
     halves = checks.counts("halves", halves, state.shape[1])
     period = np.broadcast_to(osc.period, osc.shape).ravel()
     t = np.array([np.zeros_like(period), halves * period / 2])
-    orbit = integrate(osc, state, t, tangents=2, **(TOLERANCE | options))
+    orbit = integrate(osc, state, t, tangents=2, **options)
     sign = (-1) ** halves
     log_area = -osc.columns()[0] * np.where(osc.columns()[0] > 0, orbit.friction_time[0], 0.0)
     return Return(sign * orbit.states[:, 1], sign * orbit.propagators[:, :, 0], log_area)
@@ -120,7 +119,7 @@ def cycle(osc, state, halves=2, **options):
     For an odd number they are the orbit's stroboscopic points; for an even one those with even j are, and those with
     odd j are the points of its mirror image.
     """
-    states = path(osc, state, halves, checks.count("halves", halves), **(TOLERANCE | options))[:, :-1]
+    states = path(osc, state, halves, checks.count("halves", halves), **options)[:, :-1]
     signs = np.array([1, -1] * halves)[:halves]
     return states * signs.reshape(-1, *[1] * len(osc.shape))
 

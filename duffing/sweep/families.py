@@ -11,9 +11,10 @@ from functools import partial
 import numpy as np
 
 from .. import checks
-from ..blocks import by_exponent, on_block
+from ..blocks import by_exponent
 from ..oscillator import Duffing
 from .checkpoint import Checkpoint
+from .failures import announce, attempted
 from .progress import reporting
 from .workers import completed, is_executor
 
@@ -30,7 +31,8 @@ def spread(
 ):
     """What `duffing.blocks.over_blocks` does when it is asked for more than one piece; the arguments as there.
 
-    threads : blocks at once where there is no executor; inside : threads of each block; rows : as for `on_block`
+    threads : blocks at once where there is no executor; inside : threads of each block; rows : None, or the shape of
+    a member's result, which is NaN where it has no answer
     """
     if executor is not None and not is_executor(executor):
         raise ValueError(f"executor = {executor!r}: must be None, an executor or a function that makes one")
@@ -49,7 +51,7 @@ def spread(
         missing = [s for s in family.starts if store is None or not family.restore(s, store, report)]
         source = partial(ThreadPoolExecutor, min(threads, len(family.starts))) if executor is None else executor
         try:
-            with closing(completed(source, _run, arguments, missing, 0.0 if store is None else GRACE)) as results:
+            with closing(completed(source, run_task, arguments, missing, 0.0 if store is None else GRACE)) as results:
                 for start, array in results:
                     if store is not None:
                         store.keep(store.key(*family.part(start)), array)
@@ -57,6 +59,8 @@ def spread(
         finally:
             if stop is not None:
                 stop.set()
+    if rows is not None:
+        announce(family.result, osc, lambda members: function(osc.members(members), state[:, members], **options))
     return family.result
 
 
@@ -92,13 +96,21 @@ class _Family:
         report(self.done)
 
 
-def _run(columns, state, function, options, block, stop, rows=None):
+def run_task(columns, state, function, options, block, stop, rows=None):
     """What a worker does: one block of its task after the other. What it returns once stopped nobody takes."""
     results = []
     for start in range(0, state.shape[1], block):
         if stop is not None and stop.is_set():
             return None
         members = slice(start, start + block)
-        osc = Duffing(*columns[:, members])
-        results.append(on_block(function, osc, np.ascontiguousarray(state[:, members]), options, rows))
+        results.append(_on_block(function, Duffing(*columns[:, members]), state[:, members], options, rows))
     return np.concatenate(results, axis=-1)
+
+
+def _on_block(function, osc, state, options, rows):
+    def some(members):
+        return function(osc.members(members), np.ascontiguousarray(state[:, members]), **options)
+
+    if rows is None:
+        return function(osc, np.ascontiguousarray(state), **options)
+    return attempted(some, np.arange(state.shape[1]), rows)

@@ -1,4 +1,11 @@
-"""Tasks on an executor: a bounded number under way, those of a lost worker again, and nothing left running."""
+"""Tasks on an executor: a bounded number under way, those of a lost worker again, and nothing left running.
+
+Tried in its place: joblib 1.6 with loky (`Parallel(return_as="generator_unordered")`, two workers, tasks of 0.2 s). A
+worker that was killed ended the whole run with TerminatedWorkerError, and neither the task nor another try was to be
+had; after Ctrl-C its processes outlived the program by one to two seconds on a busy machine; and it takes no executor,
+so that a cluster, threads and a pool of one's own would each need a way beside it. dask alone repeats
+lost tasks by itself, but is no dependency of the package, and its futures can lose an interrupt (see `_interrupts`).
+"""
 
 import signal
 import sys

@@ -6,7 +6,12 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import pytest
 from playwright.sync_api import sync_playwright
-from visits import CHROMIUM, HTML, PAGES, QUIET, Visit
+from visits import CHROMIUM, HTML, MISSING, PAGES, QUIET, Visit
+
+
+def pytest_configure(config):
+    if MISSING:
+        raise pytest.UsageError(MISSING)
 
 
 @pytest.fixture(scope="session")

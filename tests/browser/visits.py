@@ -4,27 +4,23 @@ Chromium is Debian's (`apt-get install chromium`) or the one that the variable C
 files, as by a reader who unpacked the book on a train; the search is tried from a server on this machine as well.
 """
 
-import os
-import shutil
+import sys
 from pathlib import Path
 
-import pytest
+sys.path.append(str(Path(__file__).parents[2] / "tools"))
+
+import chromium
 
 HTML = Path(__file__).parents[2] / "_build" / "html"
 FRONT = "index.html"  # leads to the first chapter, and is nothing else
 WRITTEN = {path.relative_to(HTML).as_posix() for path in HTML.rglob("*.html") if "_static" not in path.parts}
 PAGES = sorted(WRITTEN - {FRONT})
-CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
+CHROMIUM, NO_CHROMIUM = chromium.found()
 QUIET = ["no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
          "disable-component-update", "disable-sync"]  # the browser's own habits, not the book's  # fmt: skip
 
 # Missing means failed: a check of the book that skips itself would pass on every machine that cannot make it.
-if not PAGES:
-    raise pytest.UsageError(f"there is no book in {HTML}: run `make book` first")
-if not CHROMIUM:
-    raise pytest.UsageError(
-        "no Chromium found: `apt-get install chromium`, or name one: CHROMIUM=/path make check-book"
-    )
+MISSING = NO_CHROMIUM or (None if PAGES else f"there is no book in {HTML}: run `make book` first")
 
 
 class Visit:

@@ -15,6 +15,7 @@ from duffing.transients.survival import exponential, survival
 
 from .case import Case, to_roundoff
 
+BELOW_FOLD = (np.array([3e-3, 1e-4]), np.array([40.0, 110.0]), np.array([3.0, 6.0]))
 FOLD, CRISIS = {1.0: 0.2502}, {1.0: 0.247}  # where the lines are drawn
 
 
@@ -50,7 +51,7 @@ def _edge():
 
 def _passage():
     distance = (1e-3, 3e-4, 1e-4)
-    return {"distance": np.array(distance), "periods": transient_study.ghost(distance, p=1.0)}
+    return {"distance": np.array(distance), "periods": transient_study.passage_time(distance, p=1.0)}
 
 
 def _order():
@@ -101,7 +102,7 @@ CASES = {
     ),
     "passage": Case(
         _passage,
-        lambda d: figures.passage(d["distance"], d["periods"], (d["distance"][0], d["periods"][0])),
+        lambda d: figures.passage(d["distance"], d["periods"], (d["distance"][0], d["periods"][0]), BELOW_FOLD),
         within(periods=1),
     ),
     "order": Case(

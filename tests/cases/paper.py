@@ -28,35 +28,43 @@ def _ratio():
 
 
 def _manifolds():
-    from duffing.manifolds.curves import stable_manifold, unstable_manifold  # all other figures stand on the core alone
+    from book.studies import homoclinic_orbits as study  # all other figures stand on the core alone
 
     osc = Duffing(alpha=0.1, p=1.0)
     data = {}
     for ratio in (0.5, 2.0):
         forced = replace(osc, mu=ratio * critical_amplitude(osc))
-        for kind, manifold in (("stable", stable_manifold), ("unstable", unstable_manifold)):
-            for branch in (1, -1):
-                data[f"{kind} {branch} {ratio}"] = evenly(manifold(forced, branch))
+        _, stable, unstable, point = study.manifolds(forced, ratio, length=6.0)
+        for kind, curves in (("stable", stable), ("unstable", unstable)):
+            data |= {f"{kind} {branch} {ratio}": evenly(curve) for branch, curve in zip((1, -1), curves, strict=True)}
+        data[f"point {ratio}"] = np.array([np.nan, np.nan]) if point is None else point
     return data
 
 
 def evenly(curve, points=200):
     """A curve (2, n) at equal steps of its length, so that the spacing chosen along it does not count."""
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])
-    at = np.linspace(
-        0.0, min(length[-1], 6.0), points
-    )  # the first, uncrowded part: lobes stretch errors like chaos does
+    # The first, uncrowded part: lobes stretch errors like chaos does.
+    at = np.linspace(0.0, min(length[-1], 6.0), points)
     return np.array([np.interp(at, length, row) for row in curve])
 
 
 def _draw_manifolds(data):
     t = np.linspace(-12, 12, 200)
     loops = [homoclinic_orbit(Duffing(), t, side) for side in (1, -1)]
-    cases = [
-        (f"{ratio}", *([data[f"{kind} {branch} {ratio}"] for branch in (1, -1)] for kind in ("stable", "unstable")))
-        for ratio in (0.5, 2.0)
-    ]
-    return figures.fig2(loops, cases)
+
+    def case(ratio):
+        curves = ([data[f"{kind} {branch} {ratio}"] for branch in (1, -1)] for kind in ("stable", "unstable"))
+        return f"{ratio}", *curves, data[f"point {ratio}"]
+
+    return figures.fig2(loops, [case(ratio) for ratio in (0.5, 2.0)])
+
+
+def _strobed():
+    from book.studies import homoclinic_orbits as study
+
+    t, path, points = study.strobed(Duffing(alpha=0.1, p=1.0, mu=0.05), (1.3, 0.0), 6, samples=40)
+    return {"t": t, "path": path, "points": points}
 
 
 def _near_curves(data, reference):
@@ -81,6 +89,9 @@ def _near_onsets(data, reference):
 def _exponents(p):
     mu, exponent = reproduction.exponent_curve(p)
     return {"mu": mu, "exponent": exponent}
+
+
+FIG_4 = (-1.4, 0.3), (0.225, 0.295, -0.15, 0.25)  # the exponent's axis and the inset
 
 
 def _near_exponents(window, regular):
@@ -122,16 +133,17 @@ CASES = {
     "fig1a": Case(_potential, lambda d: figures.fig1a(d["x"], d["potential"]), to_roundoff),
     "fig1b": Case(_damping, lambda d: figures.fig1b(d["v"], d["p"], d["damping"]), to_roundoff),
     "fig2": Case(_manifolds, _draw_manifolds, _near_curves),
+    "stroboscopic": Case(_strobed, lambda d: figures.stroboscopic(d["t"], d["path"], d["points"]), _near_curves),
     "fig3a": Case(_ratio, lambda d: figures.fig3a(d["omega"], d["p"], d["ratio"]), to_roundoff),
     "fig3b": Case(_onsets, lambda d: figures.fig3b(d["p"], d["mu_c"], d["p_onset"], d["onset"]), _near_onsets),
     "fig4a": Case(
         lambda: _exponents(paper.P_SMALL),
-        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_SMALL, paper.THRESHOLD),
+        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_SMALL, paper.THRESHOLD, *FIG_4),
         _near_exponents(window=(0.268, 0.277), regular=(0.10, 0.18)),
     ),
     "fig4b": Case(
         lambda: _exponents(paper.P_LINEAR),
-        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_LINEAR, paper.THRESHOLD),
+        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_LINEAR, paper.THRESHOLD, *FIG_4),
         _near_exponents(window=(0.235, 0.260), regular=(0.0, 0.15)),
     ),
     # Late motion: a chaotic attractor's extent statistically; a periodic orbit's to the noise of the step.

@@ -1,31 +1,43 @@
-"""Trajectories side by side: what a block of lanes holds, row by row.
+"""A block of lanes: trajectories side by side, and what is known of each, part by part and row by row.
 
-Quantity Q of lane l of the block `a` is a[Q + l]. A loop over the lanes of a row uses the processor's vector units;
-what a lane computes depends on nothing in the others.
+Quantity Q of a part, in lane l, is lanes(block, PART)[Q, l], for eight lanes at once eights(block, PART)[Q, c]; a
+function opens the parts that it reads and writes by name. What a lane computes depends on nothing in the others.
+
+    part       shape         rows
+    NOW        8             the state: friction time S and time T since START, position X, W (velocity's substitute),
+                             two tangent vectors (xi, eta)
+    NEW        8             the state that an attempted step leads to
+    SLOPES     13 x 8        the slopes of the state per sigma at the stages of a step; 0 is NOW's, 12 is NEW's
+    OSC        9             the parameters in the order of Duffing.columns(), then m, n and the time where T = 0
+    LINEAR     2             of the present stage, for the tangents: dt/dsigma dF/dx, and alpha dS/dsigma
+    STEP       9             the step, how it went, and what it is limited by
+    FRAME      4             the tangents' frame and the passages through zero force since the last target
+    OWNER      5             whose trajectory it is, and where it has to go
 """
+
+import math
+
+from ..memory import views
 
 WIDTH = 32  # lanes: enough to hide the latencies of the processor, few enough that a block fits its first-level cache
 
-# The state: friction time and time since START, position, w (velocity's substitute), two tangent vectors (xi, eta).
-S, X, W, T, XI1, ETA1, XI2, ETA2, STATE = (WIDTH * row for row in range(9))
-# In the same order: what a step leads to, its slopes, the slopes at the stages of a step.
-NEW, RATE, SLOPES, _END = STATE, 2 * STATE, 3 * STATE, 15 * STATE
+NOW, NEW, SLOPES, OSC, LINEAR, STEP, FRAME, OWNER = range(8)
 
-# The parameters in the order of Duffing.columns(), then m, n and the time where T = 0.
+S, X, W, T, XI1, ETA1, XI2, ETA2 = range(8)
+LAST = 12  # stage of a step
+
 PARAMETERS = 9
-ALPHA, P, MU, OMEGA, DELTA, GAMMA, M, N, START, _END = (_END + WIDTH * row for row in range(PARAMETERS + 1))
-# Of the present stage, for the tangents: dt/dsigma dF/dx, and alpha dS/dsigma.
-SPRING, DAMPER, _END = (_END + WIDTH * row for row in range(3))
-# The step in sigma to be tried, the one that the tolerance alone allows, that of a creep in time (0: not creeping).
-H, MOVE, CREEP, _END = (_END + WIDTH * row for row in range(4))
-# The time to reach, and the sign of time.
-TARGET, SIGN, _END = (_END + WIDTH * row for row in range(3))
-# A landing's bracket of lengths, FAR = 0 if there is none; whether the last step was rejected (0 or 1); the logarithm
-# by which errors have grown backward on a slow branch; what befell the lane in its last step.
-NEAR, FAR, REJECTED, GAIN, EVENT, _END = (_END + WIDTH * row for row in range(6))
-# The tangents' frame since the last target: log R11, log R22, R12 / R11.
-LOG1, LOG2, SHEAR, _END = (_END + WIDTH * row for row in range(4))
-# Steps and passages through zero force while creeping since the last target, force evaluations in all.
-STEPS, PASSAGES, EVALUATIONS, _END = (_END + WIDTH * row for row in range(4))
-# Whose trajectory it is (-1: nobody's), and which interval of it.
-MEMBER, INTERVAL, BLOCK = (_END + WIDTH * row for row in range(3))
+ALPHA, P, MU, OMEGA, DELTA, GAMMA, M, N, START = range(PARAMETERS)
+SPRING, DAMPER = range(2)
+# H: the step in sigma to be tried; MOVE: the one that the tolerance alone allows; CREEP: that of a creep in time, 0 if
+# there is none; NEAR, FAR: bracket of the length of a step that ends on the target, FAR = 0 if there is none; REJECTED:
+# whether the last step was (0 or 1); GAIN: the logarithm by which errors have grown backward on a slow branch; OUTCOME:
+# what befell the lane in its last step; LEFT: the steps that may still be taken to the target.
+H, MOVE, CREEP, NEAR, FAR, REJECTED, GAIN, OUTCOME, LEFT = range(9)
+LOG1, LOG2, SHEAR, PASSAGES = range(4)  # log R11, log R22, R12 / R11, passages through zero force
+# TARGET: the time to reach; SIGN: of time; MEMBER: -1 is nobody's; INTERVAL of it; EVALUATIONS: of the force in all.
+TARGET, SIGN, MEMBER, INTERVAL, EVALUATIONS = range(5)
+
+PARTS = ((8,), (8,), (LAST + 1, 8), (9,), (2,), (9,), (4,), (5,))
+BLOCK = WIDTH * sum(map(math.prod, PARTS))
+lanes, eights = views(PARTS, WIDTH)

@@ -1,4 +1,4 @@
-"""Powers of any exponent and the cosine, without a branch or a call, so that loops over them use the vector units.
+"""Powers of any exponent and the cosine, of a double or of eight: without a branch or a call.
 
 Spelled out in operations that IEEE 754 fixes: the same bits in every lane of a vector and on every machine. Where one
 exponent serves many values the table of `powers` is cheaper; here each value has its own.
@@ -6,9 +6,9 @@ exponent serves many values the table of `powers` is cheaper; here each value ha
 
 import mpmath
 import numpy as np
-from numba import njit
 
-from ..powers import fma
+from ..compiled import inlined
+from ..vectors import bits, fma, from_bits, where
 
 _ROUND = 1.5 * 2.0**52  # added and taken away again it rounds to a whole number
 _TO_ONE = np.uint64(0x3FF0000000000000 - 0x3FE6A09E667F3BCD)  # from the bits of sqrt(1/2) to those of 1
@@ -29,12 +29,12 @@ with mpmath.workprec(100):
     _SIN = _polynomial(lambda z: mpmath.sin(_turn * mpmath.sqrt(z)) / mpmath.sqrt(z), 0, 0.0625, 9)
 
 
-@njit(forceinline=True)
+@inlined
 def logarithm(a):
     """Whole number e and log2(m) of a = 2^e m, sqrt(1/2) <= m < sqrt(2), for a > 0 not subnormal."""
-    bits = np.float64(a).view(np.uint64) + _TO_ONE
-    e = np.uint64((bits >> _FIELD) | _WHOLE).view(np.float64) - (2.0**52 + 1023.0)
-    m = np.uint64((bits & _MANTISSA) + _ROOT).view(np.float64)
+    moved = bits(a) + _TO_ONE
+    e = from_bits((moved >> _FIELD) | _WHOLE) - (2.0**52 + 1023.0)
+    m = from_bits((moved & _MANTISSA) + _ROOT)
     s = (m - 1.0) / (m + 1.0)
     z = s * s
     z2 = z * z
@@ -46,7 +46,7 @@ def logarithm(a):
     return e, s * fma(high, z4, low)
 
 
-@njit(forceinline=True)
+@inlined
 def power(e, l, q):
     """2^(q (e + l)), to about 1 + |q l| units in the last place; exactly 1 for q = 0, and 0 where it is subnormal."""
     whole = (q * (e + l) + _ROUND) - _ROUND
@@ -57,13 +57,13 @@ def power(e, l, q):
     low = fma(fma(c[3], f, c[2]), f2, fma(c[1], f, c[0]))
     high = fma(fma(c[7], f, c[6]), f2, fma(c[5], f, c[4]))
     top = fma(fma(c[11], f, c[10]), f2, fma(c[9], f, c[8]))
-    scale = np.uint64((np.float64(whole + _ROUND).view(np.uint64) + _BIAS) << _FIELD).view(np.float64)
+    scale = from_bits((bits(whole + _ROUND) + _BIAS) << _FIELD)
     value = scale * fma(fma(top, f4, high), f4, low)
-    value = 0.0 if whole < -1022.0 else value
-    return np.inf if whole > 1023.0 else value
+    value = where(whole < -1022.0, 0.0, value)
+    return where(whole > 1023.0, np.inf, value)
 
 
-@njit(forceinline=True)
+@inlined
 def cosine(turns):
     """cos(2 pi turns), to one unit in the last place of 1."""
     z = 0.25 - abs(turns - ((turns + _ROUND) - _ROUND))  # cos(2 pi u) = sin(2 pi (1/4 - |u|))

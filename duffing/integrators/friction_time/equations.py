@@ -21,135 +21,123 @@ and sigma is time: the same code. Other p > 1 gain from the variable w, too: v |
 import math
 
 import numpy as np
-from numba import njit
 
-from ..compiled import compiled
-from ..powers import fma
-from ..vectors import widest_vectors
+from ..compiled import inlined, inner
+from ..memory import apart, widest_vectors
+from ..vectors import fma, repeated, where
 from .block import (
-    ALPHA,
-    DAMPER,
-    DELTA,
-    GAMMA,
-    MU,
-    NEW,
-    OMEGA,
-    RATE,
-    SLOPES,
-    SPRING,
-    START,
-    STATE,
-    WIDTH,
-    XI1,
-    XI2,
-    M,
-    N,
-    S,
-    T,
-    W,
-    X,
-)
+    ALPHA, DAMPER, DELTA, ETA1, ETA2, GAMMA, LINEAR, MU, NEW, NOW, OMEGA, OSC, SLOPES, SPRING, START, XI1, XI2, M,
+    N, S, T, W, X, eights, lanes,
+)  # fmt: skip
 from .elementary import cosine, logarithm, power
 
-LINEAR, ONE_POWER, TWO_POWERS = range(3)  # kinds of blocks: all lanes have m = n = 1; n = 1; neither
-_SMOOTHNESS = 8  # the least m - 1 for which the pair keeps its order at w = 0
+SMOOTH, ONE_POWER, TWO_POWERS = range(3)  # kinds of blocks: all lanes have m = n = 1; n = 1; neither
+_DERIVATIVES = 8  # the least m - 1 for which the pair keeps its order at w = 0
 
 
 def parameters(columns):
     """The kernels' parameters, one row of nine a member, from the oscillator's columns (6, N)."""
     alpha, p = columns[0], columns[1]
-    odd, smooth = 2 * np.ceil(np.maximum((_SMOOTHNESS + 1) * p - 1, 0) / 2) + 1, p % 2 == 1
+    odd, smooth = 2 * np.ceil(np.maximum((_DERIVATIVES + 1) * p - 1, 0) / 2) + 1, p % 2 == 1
     n = np.where(alpha > 0, np.where(smooth, p, odd), 1)
     m = np.where((alpha > 0) & ~smooth, n / p, 1)
     return np.ascontiguousarray(np.concatenate([columns, [m, n, np.zeros_like(m)]]).T)
 
 
-@njit(forceinline=True)
-def force(a, l, x, t):
+@inlined
+def force(osc, l, x, t):
     """F(x, t): potential force and forcing, t counted from START."""
-    turns = a[OMEGA + l] * (a[START + l] + t) * (0.5 / math.pi)
-    return fma(-x, fma(a[GAMMA + l] * x, x, a[DELTA + l]), a[MU + l] * cosine(turns))
+    turns = osc[OMEGA, l] * (osc[START, l] + t) * (0.5 / math.pi)
+    return fma(-x, fma(osc[GAMMA, l] * x, x, osc[DELTA, l]), osc[MU, l] * cosine(turns))
 
 
-@njit(forceinline=True)
-def stiffness(a, l, x):
+@inlined
+def stiffness(osc, l, x):
     """dF/dx."""
-    return -fma(3.0 * a[GAMMA + l] * x, x, a[DELTA + l])
+    return -fma(3.0 * osc[GAMMA, l] * x, x, osc[DELTA, l])
 
 
-@njit(forceinline=True)
-def powers(a, l, w, kind):
+@inlined
+def powers(osc, l, w, kind):
     """|w|^(m-1) and |w|^(n-1): times w they are v and the damping divided by alpha; phi is m times the first."""
-    if kind == LINEAR:
-        return 1.0, 1.0
     exponent, mantissa = logarithm(max(abs(w), 2.0**-1022))
-    speed = power(exponent, mantissa, a[M + l] - 1.0)
-    return speed, 1.0 if kind == ONE_POWER else power(exponent, mantissa, a[N + l] - 1.0)
+    speed = power(exponent, mantissa, osc[M, l] - 1.0)
+    return speed, repeated(1.0, w) if kind == ONE_POWER else power(exponent, mantissa, osc[N, l] - 1.0)
 
 
-@compiled
-def velocity(a, l, w):
+@inlined
+def velocity(osc, l, w):
     """v = sign(w) |w|^m."""
-    return powers(a, l, w, TWO_POWERS)[0] * w
+    return powers(osc, l, w, TWO_POWERS)[0] * w
 
 
-@compiled
-def variable(a, l, v):
-    """w = sign(v) |v|^(1/m)."""
+@inlined
+def variable(osc, l, v):
+    """w = sign(v) |v|^(1/m), of one lane."""
     exponent, mantissa = logarithm(max(abs(v), 2.0**-1022))
-    return v if a[M + l] == 1.0 or v == 0.0 else math.copysign(power(exponent, mantissa, 1.0 / a[M + l]), v)
+    return v if osc[M, l] == 1.0 or v == 0.0 else math.copysign(power(exponent, mantissa, 1.0 / osc[M, l]), v)
 
 
-@njit(forceinline=True)
-def _slopes(a, l, at, kind):
-    """RATE = d(S, t, x, w)/dsigma of one lane whose state is at the rows `at`."""
-    x, w = a[at + X + l], a[at + W + l]
-    m, n = (1.0, 1.0) if kind == LINEAR else (a[M + l], a[N + l])
-    speed, damping = powers(a, l, w, kind)
+@inlined
+def equations_of_motion(osc, state, rate, linear, l, kind):
+    """rate = d(S, T, x, w)/dsigma at the state; linear = what the tangents at it need."""
+    x, w, m, n = state[X, l], state[W, l], osc[M, l], osc[N, l]
+    speed, damping = powers(osc, l, w, kind)
     phi = m * speed
-    pace = 1.0 if m == 1.0 else 1.0 / (m + phi)
+    pace = where(m == 1.0, 1.0, 1.0 / (m + phi))
     dt, friction = phi * pace, n * damping * pace
-    a[RATE + S + l] = friction
-    a[RATE + X + l] = dt * speed * w
-    a[RATE + W + l] = fma(-a[ALPHA + l] * damping, w, force(a, l, x, a[at + T + l])) * pace
-    a[RATE + T + l] = dt
-    a[SPRING + l], a[DAMPER + l] = dt * stiffness(a, l, x), a[ALPHA + l] * friction
+    rate[S, l] = friction
+    rate[X, l] = dt * speed * w
+    rate[W, l] = fma(-osc[ALPHA, l] * damping, w, force(osc, l, x, state[T, l])) * pace
+    rate[T, l] = dt
+    linear[SPRING, l], linear[DAMPER, l] = dt * stiffness(osc, l, x), osc[ALPHA, l] * friction
 
 
-@njit(forceinline=True)
-def _tangent_slopes(a, l, at, xi):
-    """The same of one tangent vector, rows xi and behind; needs the rows SPRING and DAMPER."""
-    eta = xi + WIDTH
-    a[RATE + xi + l] = a[RATE + T + l] * a[at + eta + l]
-    a[RATE + eta + l] = fma(a[SPRING + l], a[at + xi + l], -a[DAMPER + l] * a[at + eta + l])
+@inlined
+def _linear_equations(osc, state, rate, linear, l):
+    """The same where m = n = 1."""
+    x, w, one = state[X, l], state[W, l], repeated(1.0, state[W, l])
+    rate[S, l], rate[X, l], rate[T, l] = one, w, one
+    rate[W, l] = fma(-osc[ALPHA, l], w, force(osc, l, x, state[T, l]))
+    linear[SPRING, l], linear[DAMPER, l] = stiffness(osc, l, x), osc[ALPHA, l]
 
 
-@compiled
-def rates(a, eights, tangents, kind):
-    """RATE = the slopes at NEW of the first eights * 8 lanes, with as many tangent vectors as asked."""
+@inlined
+def _variational_equations(state, rate, linear, l, xi, eta):
+    """The slopes of one tangent vector, rows xi and eta."""
+    rate[xi, l] = rate[T, l] * state[eta, l]
+    rate[eta, l] = fma(linear[SPRING, l], state[xi, l], -linear[DAMPER, l] * state[eta, l])
+
+
+@inner
+def rates(block, number, stage, tangents, kind):
+    """SLOPES of the stage, from NEW, of the first `number` vectors of lanes, with as many tangents as asked."""
     widest_vectors()
-    if kind == LINEAR:
-        for l in range(8 * eights):
-            _slopes(a, l, NEW, LINEAR)
+    osc, new, linear = eights(block, OSC), eights(block, NEW), eights(block, LINEAR)
+    rate = eights(block, SLOPES)[stage]
+    if kind == SMOOTH:
+        for c in range(number):
+            _linear_equations(osc, new, rate, linear, c)
     elif kind == ONE_POWER:
-        for l in range(8 * eights):
-            _slopes(a, l, NEW, ONE_POWER)
+        for c in range(number):
+            equations_of_motion(osc, new, rate, linear, c, ONE_POWER)
     else:
-        for l in range(8 * eights):
-            _slopes(a, l, NEW, TWO_POWERS)
+        for c in range(number):
+            equations_of_motion(osc, new, rate, linear, c, TWO_POWERS)
     if tangents > 0:
-        for l in range(8 * eights):
-            _tangent_slopes(a, l, NEW, XI1)
+        for c in range(number):
+            _variational_equations(new, rate, linear, c, XI1, ETA1)
     if tangents > 1:
-        for l in range(8 * eights):
-            _tangent_slopes(a, l, NEW, XI2)
+        for c in range(number):
+            _variational_equations(new, rate, linear, c, XI2, ETA2)
 
 
-@compiled
-def rate(a, l, tangents):
-    """The slopes of one lane at its state, as first stage of its next step."""
-    _slopes(a, l, 0, TWO_POWERS)
-    for vector in range(tangents):
-        _tangent_slopes(a, l, 0, XI1 + 2 * WIDTH * vector)
-    for row in range(S, STATE, WIDTH):
-        a[SLOPES + row + l] = a[RATE + row + l]
+@inner
+def first_slopes(block, l):
+    """SLOPES of stage 0: those of one lane at NOW."""
+    apart()
+    osc, now, linear = lanes(block, OSC), lanes(block, NOW), lanes(block, LINEAR)
+    rate = lanes(block, SLOPES)[0]
+    equations_of_motion(osc, now, rate, linear, l, TWO_POWERS)
+    _variational_equations(now, rate, linear, l, XI1, ETA1)
+    _variational_equations(now, rate, linear, l, XI2, ETA2)

@@ -4,60 +4,61 @@ Newton's iteration in the step's length, kept inside a bracket; the last, neglig
 tangent to the orbit. Each trial is a step like any other: the lanes beside do not wait.
 """
 
-from numba import njit
-
-from ..compiled import compiled
-from .block import FAR, MOVE, NEAR, NEW, RATE, SLOPES, STATE, TARGET, WIDTH, H, T, W
-from .equations import rate
-
-
-@njit(forceinline=True)
-def crosses(a, l, component):
-    """Whether the step to NEW reaches or crosses the target: the time TARGET (component T) or w = 0 (component W)."""
-    if component == T:
-        return abs(a[NEW + T + l]) >= abs(a[TARGET + l]) - _slack(a[TARGET + l])
-    return a[W + l] * a[NEW + W + l] < 0.0
+from ..compiled import inlined, inner
+from ..memory import apart
+from ..vectors import where
+from .block import FAR, LAST, MOVE, NEAR, NEW, NOW, OWNER, SLOPES, STEP, TARGET, H, T, W, lanes
 
 
-@njit(forceinline=True)
+@inlined
+def reaches(now, new, owner, c, event):
+    """Whether the step to NEW reaches or crosses the target: the time TARGET (event T) or w = 0 (event W)."""
+    arrives = abs(new[T, c]) >= abs(owner[TARGET, c]) - _slack(owner[TARGET, c])
+    return ((event == T) & arrives) | ((event != T) & (now[W, c] * new[W, c] < 0.0))
+
+
+@inlined
 def _slack(target):
-    return 4e-16 * max(1.0, abs(target))
+    return 4e-16 * where(abs(target) > 1.0, abs(target), 1.0)
 
 
-@compiled
-def land(a, l, component, tangents):
+@inner
+def locate_event(block, l, event):
     """After a step that crosses, and after each trial: True if it has arrived, else H is the next trial's length."""
-    target = a[TARGET + l] if component == T else 0.0
-    miss, slope, h = target - a[NEW + component + l], a[RATE + component + l], a[H + l]
-    correction, size = miss / slope, 1e-9 * abs(a[MOVE + l])
+    apart()
+    now, new, slopes = lanes(block, NOW), lanes(block, NEW), lanes(block, SLOPES)
+    step, rate = lanes(block, STEP), slopes[LAST]
+    target = lanes(block, OWNER)[TARGET, l] if event == T else 0.0
+    miss, slope, h = target - new[event, l], rate[event, l], step[H, l]
+    correction, size = miss / slope, 1e-9 * abs(step[MOVE, l])
     exact = abs(miss) <= _slack(target)
-    if a[FAR + l] == 0.0:
+    if step[FAR, l] == 0.0:
         if not exact:
-            a[NEAR + l], a[FAR + l] = 0.0, h
-            a[H + l] = _first_guess(a[component + l] - target, a[SLOPES + component + l], -miss, slope, h)
+            step[NEAR, l], step[FAR, l] = 0.0, h
+            step[H, l] = _first_guess(now[event, l] - target, slopes[0, event, l], -miss, slope, h)
             return False
     else:
-        if miss * (target - a[component + l]) > 0:
-            a[NEAR + l] = h
+        if miss * (target - now[event, l]) > 0:
+            step[NEAR, l] = h
         else:
-            a[FAR + l] = h
-        near, far = a[NEAR + l], a[FAR + l]
+            step[FAR, l] = h
+        near, far = step[NEAR, l], step[FAR, l]
         if not (exact or abs(correction) <= size or abs(far - near) <= 1e-5 * size):
-            a[H + l] = h + correction
-            if not min(near, far) < a[H + l] < max(near, far):
-                a[H + l] = 0.5 * (near + far)
+            step[H, l] = h + correction
+            if not min(near, far) < step[H, l] < max(near, far):
+                step[H, l] = 0.5 * (near + far)
             return False
     shift = correction if not exact and abs(correction) <= size else 0.0
-    for row in range(0, STATE, WIDTH):
-        a[row + l] = a[NEW + row + l] + shift * a[RATE + row + l]
-    a[component + l], a[FAR + l], a[H + l] = target, 0.0, a[MOVE + l]
-    rate(a, l, tangents)
+    for row in range(8):
+        now[row, l] = new[row, l] + shift * rate[row, l]
+    now[event, l], step[FAR, l], step[H, l] = target, 0.0, step[MOVE, l]
     return True
 
 
-@compiled
+@inner
 def _first_guess(f0, slope0, f1, slope1, h):
     """Zero of the cubic through both ends of the step, by a few Newton steps inside the bracket."""
+    apart()
     near, far = 0.0, 1.0
     z = f0 / (f0 - f1)
     for _ in range(8):

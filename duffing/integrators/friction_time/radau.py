@@ -20,11 +20,10 @@ integral of t^(1-1/p), diverges for p <= 1/2: a tangent direction is annihilated
 import math
 
 import numpy as np
-from numba import carray, njit
 
-from ..compiled import compiled
-from ..vectors import stack
-from .block import ALPHA, DELTA, GAMMA, MU, NEW, WIDTH, XI1, P, S, T, X
+from ..compiled import inlined, inner
+from ..memory import matrix, stack
+from .block import ALPHA, DELTA, GAMMA, MU, NEW, NOW, OSC, XI1, P, S, T, X, lanes
 from .equations import force, stiffness
 
 STAGES = 5
@@ -63,37 +62,39 @@ _G, _GW = (np.polynomial.legendre.leggauss(_GAUSS)[0] + 1) / 2, np.polynomial.le
 _FINE = _lagrange(_POINTS, _G)
 
 
-@compiled
-def creep(a, l, Y0, h, tangents, rtol, atol):
+@inner
+def radau_step(block, l, Y0, h, tangents, rtol, atol):
     """One step of h > 0 in time of one lane, whose damping force is Y0: NEW (its row W untouched) is the state there.
 
     Returns the damping force at the end, the estimated error (1 = just tolerable; infinite: the iteration failed), the
     passages of Y through zero (-1 if the force is not zero there: a turn, no creep), the number of force evaluations.
     """
-    r = 1 / a[P + l]
+    osc, now, new = lanes(block, OSC), lanes(block, NOW), lanes(block, NEW)
+    alpha, p, t = osc[ALPHA, l], osc[P, l], now[T, l]
+    r = 1 / p
     Y, v, phi = stack(8), stack(8), stack(8)
     F, x, spring = stack(8), stack(8), stack(8)
-    J, rhs, order = carray(stack(32), (STAGES, STAGES)), stack(8), stack(8)
-    Y[0], x[0] = Y0, a[X + l]
+    J, rhs, order = matrix(stack(32), STAGES, STAGES), stack(8), stack(8)
+    Y[0], x[0] = Y0, now[X, l]
     phi[0] = r * abs(Y0) ** (r - 1)
     v[0] = phi[0] * Y0 / r
-    F[0] = force(a, l, x[0], a[T + l])
+    F[0] = force(osc, l, x[0], t)
     for i in range(1, STAGES + 1):
         c = _POINTS[i] * h
-        Y[i] = Y0 + (force(a, l, x[0] + c * v[0], a[T + l] + c) - F[0]) / a[ALPHA + l]
+        Y[i] = Y0 + (force(osc, l, x[0] + c * v[0], t + c) - F[0]) / alpha
     count, converged = 1 + STAGES, False
     for _ in range(30):
-        _stages(a, l, a[T + l], h, r, Y, v, phi, F, x, spring)
+        _stages(osc, l, t, h, r, Y, v, phi, F, x, spring)
         count += STAGES
         largest = 0.0
         for i in range(STAGES):
             residual = v[i + 1] - v[0]
             for j in range(STAGES):
-                residual -= h * _A[i, j] * (F[j + 1] - a[ALPHA + l] * Y[j + 1])
+                residual -= h * _A[i, j] * (F[j + 1] - alpha * Y[j + 1])
                 mixed = 0.0
                 for k in range(STAGES):
                     mixed += _A[i, k] * spring[k + 1] * _A[k, j]
-                J[i, j] = h * a[ALPHA + l] * _A[i, j] - h * h * mixed * phi[j + 1]
+                J[i, j] = h * alpha * _A[i, j] - h * h * mixed * phi[j + 1]
             J[i, i] += phi[i + 1]
             rhs[i] = -residual
             largest = max(largest, abs(Y[i + 1]))
@@ -109,36 +110,36 @@ def creep(a, l, Y0, h, tangents, rtol, atol):
         converged = change <= 1e-7 * largest + 1e-300  # the next iterate is then exact to rounding
     if not converged:
         return Y0, math.inf, 0, count
-    _stages(a, l, a[T + l], h, r, Y, v, phi, F, x, spring)
+    _stages(osc, l, t, h, r, Y, v, phi, F, x, spring)
     count += STAGES
-    a[NEW + X + l], a[NEW + T + l] = x[STAGES], a[T + l] + h
-    a[NEW + S + l] = a[S + l] + _friction_time(a[P + l], h, Y)
+    new[X, l], new[T, l] = x[STAGES], t + h
+    new[S, l] = now[S, l] + _friction_time(p, h, Y)
     passages = _passages(Y)
-    slow = SLOW if a[P + l] < 0.5 else 1.0  # at p = 1/2 the passage is never nearer to the slow branch than its start
-    if passages > 0 and (passages != _passages(F) or abs(F[0] - a[ALPHA + l] * Y0) > slow * abs(F[0])):
+    slow = SLOW if p < 0.5 else 1.0  # at p = 1/2 the passage is never nearer to the slow branch than its start
+    if passages > 0 and (passages != _passages(F) or abs(F[0] - alpha * Y0) > slow * abs(F[0])):
         passages = -1
     for vector in range(tangents):
-        xi = XI1 + 2 * WIDTH * vector + l
-        eta = xi + WIDTH
+        row = XI1 + 2 * vector
+        xi, eta = now[row, l], now[row + 1, l]
         for i in range(STAGES):
-            rhs[i] = a[eta]
+            rhs[i] = eta
             for j in range(STAGES):
-                rhs[i] += h * _A[i, j] * spring[j + 1] * a[xi]
+                rhs[i] += h * _A[i, j] * spring[j + 1] * xi
         _solve(J, order, rhs)
-        a[NEW + xi], a[NEW + eta] = a[xi], phi[STAGES] * rhs[STAGES - 1]
+        new[row, l], new[row + 1, l] = xi, phi[STAGES] * rhs[STAGES - 1]
         for j in range(STAGES):
-            a[NEW + xi] += h * _A[STAGES - 1, j] * phi[j + 1] * rhs[j]
+            new[row, l] += h * _A[STAGES - 1, j] * phi[j + 1] * rhs[j]
     ex, ev = 0.0, 0.0
     for i in range(STAGES + 1):
         ex += h * _DIFFERENCE[i] * v[i]
-        ev += h * _DIFFERENCE[i] * (F[i] - a[ALPHA + l] * Y[i])
-    ev *= phi[STAGES] / (phi[STAGES] + 0.1 * h * a[ALPHA + l])  # the relaxation damps what the estimate sees of it
+        ev += h * _DIFFERENCE[i] * (F[i] - alpha * Y[i])
+    ev *= phi[STAGES] / (phi[STAGES] + 0.1 * h * alpha)  # the relaxation damps what the estimate sees of it
     scale = atol + rtol * math.hypot(x[0], v[0])  # of the old point, as in dop853
     return Y[STAGES], math.hypot(ex, ev) / scale, passages, count
 
 
-@compiled
-def _stages(a, l, t, h, r, Y, v, phi, F, x, spring):
+@inner
+def _stages(osc, l, t, h, r, Y, v, phi, F, x, spring):
     """Velocity, phi, position, force and stiffness at the stages (entries 1 to 5) from the damping force Y there."""
     for i in range(1, STAGES + 1):
         phi[i] = r * abs(Y[i]) ** (r - 1)
@@ -147,11 +148,11 @@ def _stages(a, l, t, h, r, Y, v, phi, F, x, spring):
         x[i] = x[0]
         for j in range(STAGES):
             x[i] += h * _A[i - 1, j] * v[j + 1]
-        F[i] = force(a, l, x[i], t + _POINTS[i] * h)
-        spring[i] = stiffness(a, l, x[i])
+        F[i] = force(osc, l, x[i], t + _POINTS[i] * h)
+        spring[i] = stiffness(osc, l, x[i])
 
 
-@compiled
+@inner
 def _friction_time(p, h, Y):
     """Integral of p |Y|^(1-1/p) over the step; infinite for p <= 1/2 if Y vanishes in it."""
     total, vanishes, logs = 0.0, _passages(Y) > 0, stack(8)
@@ -168,7 +169,7 @@ def _friction_time(p, h, Y):
     return total
 
 
-@compiled
+@inner
 def _passages(values):
     """Sign changes over the step of the polynomial with these values at the start and the stages."""
     count, before = 0, values[0]
@@ -184,7 +185,7 @@ def _passages(values):
     return count
 
 
-@compiled
+@inner
 def _factor(J, order):
     """LU factors of J in place, rows exchanged: row k with order[k]."""
     for k in range(STAGES):
@@ -201,7 +202,7 @@ def _factor(J, order):
                 J[i, j] -= J[i, k] * J[k, j]
 
 
-@compiled
+@inner
 def _solve(J, order, b):
     """Solve with the factors, in place."""
     for k in range(STAGES):
@@ -216,8 +217,9 @@ def _solve(J, order, b):
         b[k] /= J[k, k]
 
 
-@njit(forceinline=True)
-def at_rest(a, l, x, F, Y):
+@inlined
+def at_rest(osc, l, x, F, Y):
     """Whether force and damping are both below the rounding error of the force: nothing moves that can be computed."""
-    noise = 1e-13 * (abs(a[DELTA + l] * x) + abs(a[GAMMA + l] * x * x * x) + a[MU + l])
-    return (a[ALPHA + l] > 0.0) & (abs(F) <= noise) & (a[ALPHA + l] * abs(Y) <= noise)
+    alpha = osc[ALPHA, l]
+    noise = 1e-13 * (abs(osc[DELTA, l] * x) + abs(osc[GAMMA, l] * x * x * x) + osc[MU, l])
+    return (alpha > 0.0) & (abs(F) <= noise) & (alpha * abs(Y) <= noise)

@@ -8,52 +8,31 @@ result costs, not what it is: both keep the same tolerance.
 
 import math
 
-from ..compiled import compiled
-from ..vectors import stack
+from numba import int64
+
+from ..compiled import announced, compiled, inner
+from ..memory import apart, stack
 from .block import (
-    ALPHA,
-    BLOCK,
-    CREEP,
-    ETA1,
-    ETA2,
-    EVALUATIONS,
-    EVENT,
-    FAR,
-    GAIN,
-    INTERVAL,
-    LOG1,
-    LOG2,
-    MEMBER,
-    MOVE,
-    NEW,
-    OMEGA,
-    PARAMETERS,
-    PASSAGES,
-    REJECTED,
-    SHEAR,
-    SIGN,
-    SLOPES,
-    START,
-    STATE,
-    STEPS,
-    TARGET,
-    WIDTH,
-    XI1,
-    XI2,
-    H,
-    M,
-    N,
-    P,
-    S,
-    T,
-    W,
-    X,
-)
-from .dop853 import advance
-from .equations import LINEAR, ONE_POWER, TWO_POWERS, force, powers, rate, variable, velocity
-from .event_location import land
-from .radau import at_rest, creep
-from .step_control import ARRIVES, COLLAPSES, CREEPS, DONE, GOING, NO_CROSSING, STUCK, TOO_MANY_STEPS, judge, not_beyond
+    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LEFT, LOG1, LOG2, MEMBER, MOVE, NEW,
+    NOW, OMEGA, OSC, OUTCOME, OWNER, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, TARGET, WIDTH,
+    XI1, XI2, H, M, N, P, S, T, W, X, lanes,
+)  # fmt: skip
+from .dop853 import step
+from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
+from .event_location import locate_event
+from .radau import at_rest, radau_step
+from .step_control import (
+    ARRIVES,
+    COLLAPSES,
+    CREEPS,
+    DONE,
+    GOING,
+    NO_CROSSING,
+    STUCK,
+    TOO_MANY_STEPS,
+    accept_steps,
+    not_beyond,
+)  # fmt: skip
 from .tangent_frame import log_area, orthonormalise
 
 # What is told of each interval: position, velocity, time, friction time, the frame, its first vector's angle, passages.
@@ -64,144 +43,174 @@ _CREEP_STEP = 1 / 16  # of a forcing period at most, so that no passage of the f
 
 
 @compiled
-def follow(parameters, states, times, component, beyond, tangents, control, results, status, evaluations):
+def run_lanes(parameters, states, times, steps, event, beyond, tangents, control, results, status, evaluations):
     """Carry each member from states (N, 2) through the times (N, n), status (N,).
 
-    component : T, or W for the first crossing of v = 0 with x > beyond before the time times[:, 1]
+    steps : (N, n - 1), the most that are taken in each interval
+    event : T, or W for the first crossing of v = 0 with x > beyond before the time times[:, 1]
     tangents : 0, 1 or 2 of them
-    control : rtol, atol, bound on the steps of an interval, relaxation times a step above which a creep begins
+    control : rtol, atol, relaxation times a step above which a creep begins
     results : (N, n - 1, 9), in the order of RESULTS; evaluations : (N,) of the force
     """
-    a, kind, waiting, flying = stack(BLOCK), LINEAR, 0, min(status.size, WIDTH)
-    for l in range(flying):
-        a[MEMBER + l] = -1.0
+    block = stack(BLOCK)
+    owner, outcome = lanes(block, OWNER), lanes(block, STEP)[OUTCOME]
+    kind, waiting, used = SMOOTH, int64(0), min(status.size, WIDTH)
+    for l in range(used):
+        owner[MEMBER, l] = -1.0
     while True:
-        l = 0
-        while l < flying:
-            if a[MEMBER + l] >= 0.0 and a[EVENT + l] != GOING:
-                _serve(a, l, times, component, beyond, tangents, control, results, status, evaluations)
-            if a[MEMBER + l] >= 0.0:
-                l += 1
-            elif waiting < status.size:
-                kind = max(kind, _board(a, l, waiting, parameters, states))
-                _depart(a, l, 0, times, component, tangents)
-                waiting += 1
+        l = int64(0)  # a variable: functions that are called with a constant are compiled for it
+        while l < used:
+            moved = False
+            if owner[MEMBER, l] >= 0.0 and outcome[l] != GOING:
+                moved = handle_event(
+                    block, l, times, steps, event, beyond, tangents, control, results, status, evaluations
+                )
+            if owner[MEMBER, l] < 0.0 and waiting < status.size:
+                kind = max(kind, load_member(block, l, waiting, parameters, states))
+                start_interval(block, l, int64(0), times, steps, event)
+                waiting, moved = waiting + 1, True
+            if owner[MEMBER, l] >= 0.0:
+                if moved:
+                    first_slopes(block, l)
                 l += 1
             else:  # nobody waits: the last lane moves here, so that the block gets smaller
-                flying -= 1
-                for row in range(0, BLOCK, WIDTH):
-                    a[row + l] = a[row + flying]
-        if flying == 0:
+                used -= 1
+                for first in range(0, BLOCK, WIDTH):
+                    block[first + l] = block[first + used]
+        if used == 0:
             break
-        eights = (flying + 7) // 8
-        advance(a, eights, tangents, kind)
-        judge(a, eights, component, tangents, control, kind)
+        number = (used + 7) // 8
+        step(block, number, tangents, kind)
+        accept_steps(block, number, event, tangents, control, kind)
 
 
-@compiled
-def _board(a, l, member, parameters, states):
+announced(run_lanes, "the accurate integrator")
+
+
+@inner
+def load_member(block, l, member, parameters, states):
     """Member's parameters, start, identity as tangents and a careful first step; returns the lane's kind."""
+    apart()
+    osc, now, step, owner = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP), lanes(block, OWNER)
     for k in range(PARAMETERS):
-        a[ALPHA + k * WIDTH + l] = parameters[member, k]
-    x, v = states[member]
-    if a[P + l] > 1.0 and at_rest(a, l, x, force(a, l, x, 0.0), v):
-        a[M + l], a[N + l] = 1.0, a[P + l]  # at rest without force w would stay what it is for ever: take v itself
-    a[X + l], a[W + l] = x, variable(a, l, v)
-    a[XI1 + l], a[ETA1 + l], a[XI2 + l], a[ETA2 + l] = 1.0, 0.0, 0.0, 1.0
-    a[MEMBER + l], a[EVALUATIONS + l], a[MOVE + l], a[CREEP + l] = member, 0.0, 0.05 / a[OMEGA + l], 0.0
-    return TWO_POWERS if a[N + l] != 1.0 else ONE_POWER if a[M + l] != 1.0 else LINEAR
+        osc[k, l] = parameters[member, k]
+    x, v = states[member, 0], states[member, 1]
+    if osc[P, l] > 1.0 and at_rest(osc, l, x, force(osc, l, x, 0.0), v):
+        osc[M, l], osc[N, l] = 1.0, osc[P, l]  # at rest without force w would stay what it is for ever: take v itself
+    now[X, l], now[W, l] = x, variable(osc, l, v)
+    now[XI1, l], now[ETA1, l], now[XI2, l], now[ETA2, l] = 1.0, 0.0, 0.0, 1.0
+    step[MOVE, l], step[CREEP, l] = 0.05 / osc[OMEGA, l], 0.0
+    owner[MEMBER, l], owner[EVALUATIONS, l] = member, 0.0
+    return TWO_POWERS if osc[N, l] != 1.0 else ONE_POWER if osc[M, l] != 1.0 else SMOOTH
 
 
-@compiled
-def _depart(a, l, interval, times, component, tangents):
-    """Make the lane ready for its next interval."""
-    before, after = times[int(a[MEMBER + l]), interval : interval + 2]
-    a[INTERVAL + l], a[START + l], a[TARGET + l] = interval, before, after - before
-    a[SIGN + l] = 1.0 if after > before else -1.0
-    for row in (S, T, LOG1, LOG2, SHEAR, STEPS, PASSAGES, FAR, REJECTED, GAIN):
-        a[row + l] = 0.0
-    a[MOVE + l] = a[SIGN + l] * abs(a[MOVE + l])
-    a[H + l] = not_beyond(a, l, component, 0.0, a[MOVE + l])
-    rate(a, l, tangents)
-    a[EVALUATIONS + l] += 1.0
+@inner
+def start_interval(block, l, interval, times, steps, event):
+    """The next time to reach; what is counted since the last begins anew."""
+    apart()
+    osc, now, step = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP)
+    frame, owner = lanes(block, FRAME), lanes(block, OWNER)
+    member = int(owner[MEMBER, l])
+    before, after = times[member, interval], times[member, interval + 1]
+    owner[INTERVAL, l], osc[START, l], owner[TARGET, l] = interval, before, after - before
+    owner[SIGN, l] = 1.0 if after > before else -1.0
+    now[S, l] = now[T, l] = frame[LOG1, l] = frame[LOG2, l] = frame[SHEAR, l] = frame[PASSAGES, l] = 0.0
+    step[FAR, l] = step[REJECTED, l] = step[GAIN, l] = step[OUTCOME, l] = 0.0
+    step[LEFT, l] = steps[member, interval]
+    step[MOVE, l] = owner[SIGN, l] * abs(step[MOVE, l])
+    step[H, l] = not_beyond(osc, owner, l, event, 0.0, step[MOVE, l])
+    owner[EVALUATIONS, l] += 1.0
 
 
-@compiled
-def _serve(a, l, times, component, beyond, tangents, control, results, status, evaluations):
-    """Do what the lane's event asks for, until it is ready for a step again or its trajectory has ended."""
-    event = int(a[EVENT + l])
-    if event == ARRIVES:
-        if not land(a, l, component, tangents):
-            return
+@inner
+def handle_event(block, l, times, steps, event, beyond, tangents, control, results, status, evaluations):
+    """Do what the lane's last step asks for, until it is ready for a step again or its trajectory has ended.
+
+    Returns whether the lane has left the point at which its slopes are known.
+    """
+    apart()
+    osc, now, step, owner = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP), lanes(block, OWNER)
+    outcome = int(step[OUTCOME, l])
+    if outcome == ARRIVES:
+        if not locate_event(block, l, event):
+            return False
         # A turning point that was not asked for is a state like any other.
-        event = DONE if component == T or a[X + l] > beyond else GOING
-    elif event == COLLAPSES:
-        orthonormalise(a, l, tangents, log_area(a, l, tangents))
-        rate(a, l, tangents)
-        event = GOING
-    elif event == CREEPS:
-        a[CREEP + l] = max(a[MOVE + l] * a[SLOPES + T + l], 1e-6 / a[OMEGA + l])  # the first can underflow
-        event = _creep_on(a, l, component, beyond, tangents, control)
-    while event != GOING:
-        member, interval = int(a[MEMBER + l]), int(a[INTERVAL + l])
-        if event == DONE:
-            orthonormalise(a, l, tangents, log_area(a, l, tangents))
-            _tell(a, l, results[member, interval])
-        if event != DONE or interval + 2 == times.shape[1]:
-            status[member], evaluations[member], a[MEMBER + l] = event, int(a[EVALUATIONS + l]), -1.0
-            return
-        _depart(a, l, interval + 1, times, component, tangents)
-        event = _creep_on(a, l, component, beyond, tangents, control) if a[CREEP + l] > 0.0 else GOING
+        outcome = DONE if event == T or now[X, l] > beyond else GOING
+    elif outcome == COLLAPSES:
+        orthonormalise(block, l, tangents, log_area(block, l, tangents))
+        outcome = GOING
+    elif outcome == CREEPS:
+        step[CREEP, l] = max(
+            step[MOVE, l] * lanes(block, SLOPES)[0, T, l], 1e-6 / osc[OMEGA, l]
+        )  # the first can underflow
+        outcome = creep(block, l, event, beyond, tangents, control)
+    while outcome != GOING:
+        member, interval = int(owner[MEMBER, l]), int(owner[INTERVAL, l])
+        if outcome == DONE:
+            orthonormalise(block, l, tangents, log_area(block, l, tangents))
+            store(block, l, results[member, interval])
+        if outcome != DONE or interval + 2 == times.shape[1]:
+            status[member], evaluations[member], owner[MEMBER, l] = outcome, int(owner[EVALUATIONS, l]), -1.0
+            return True
+        start_interval(block, l, interval + 1, times, steps, event)
+        outcome = creep(block, l, event, beyond, tangents, control) if step[CREEP, l] > 0.0 else GOING
+    return True
 
 
-@compiled
-def _tell(a, l, result):
+@inner
+def store(block, l, result):
     """Write the results of an interval."""
-    result[AT_X], result[AT_V], result[AT_T], result[AT_S] = a[X + l], velocity(a, l, a[W + l]), a[T + l], a[S + l]
-    result[R11], result[R22], result[R12] = a[LOG1 + l], a[LOG2 + l], a[SHEAR + l]
-    result[ANGLE], result[ANNIHILATIONS] = math.atan2(a[ETA1 + l], a[XI1 + l]), a[PASSAGES + l]
+    apart()
+    now, frame = lanes(block, NOW), lanes(block, FRAME)
+    result[AT_X], result[AT_V] = now[X, l], velocity(lanes(block, OSC), l, now[W, l])
+    result[AT_T], result[AT_S] = now[T, l], now[S, l]
+    result[R11], result[R22], result[R12] = frame[LOG1, l], frame[LOG2, l], frame[SHEAR, l]
+    result[ANGLE], result[ANNIHILATIONS] = math.atan2(now[ETA1, l], now[XI1, l]), frame[PASSAGES, l]
 
 
-@compiled
-def _creep_on(a, l, component, beyond, tangents, control):
+@inner
+def creep(block, l, event, beyond, tangents, control):
     """Implicit steps until the target or a failure, or (GOING) until a step is short enough for the explicit method."""
-    rtol, atol, most_steps, switch = control
-    Y = powers(a, l, a[W + l], TWO_POWERS)[1] * a[W + l]
-    orthonormalise(a, l, tangents, log_area(a, l, tangents))
-    while a[STEPS + l] < most_steps:
-        a[STEPS + l] += 1.0
-        left = a[TARGET + l] - a[T + l]
-        h = min(a[CREEP + l], left, _CREEP_STEP * 2 * math.pi / a[OMEGA + l])
-        resting = at_rest(a, l, a[X + l], force(a, l, a[X + l], a[T + l]), Y)
-        end, e, passages, evaluations = creep(a, l, Y, h, tangents, rtol, atol)
-        a[EVALUATIONS + l] += evaluations
-        if a[P + l] > 0.5 and resting:
+    apart()
+    osc, now, new, step = lanes(block, OSC), lanes(block, NOW), lanes(block, NEW), lanes(block, STEP)
+    frame, owner = lanes(block, FRAME), lanes(block, OWNER)
+    rtol, atol, switch = control
+    alpha, p, m, n = osc[ALPHA, l], osc[P, l], osc[M, l], osc[N, l]
+    Y = powers(osc, l, now[W, l], TWO_POWERS)[1] * now[W, l]
+    orthonormalise(block, l, tangents, log_area(block, l, tangents))
+    while step[LEFT, l] > 0.0:
+        step[LEFT, l] -= 1.0
+        ahead = owner[TARGET, l] - now[T, l]
+        h = min(step[CREEP, l], ahead, _CREEP_STEP * 2 * math.pi / osc[OMEGA, l])
+        resting = at_rest(osc, l, now[X, l], force(osc, l, now[X, l], now[T, l]), Y)
+        end, e, passages, evaluations = radau_step(block, l, Y, h, tangents, rtol, atol)
+        owner[EVALUATIONS, l] += evaluations
+        if p > 0.5 and resting:
             passages = 0
-        if passages < 0 or (passages > 0 and a[P + l] > 0.5):
+        if passages < 0 or (passages > 0 and p > 0.5):
             e = math.inf  # a turn, or a passage in finite friction time: for explicit steps to resolve
         if e <= 1.0:
-            if passages > 0 and component == W and a[NEW + X + l] > beyond:
+            if passages > 0 and event == W and new[X, l] > beyond:
                 return STUCK
-            a[PASSAGES + l] += passages
-            Y, a[NEW + W + l] = end, math.copysign(abs(end) ** (1 / a[N + l]), end)
-            relaxed = a[ALPHA + l] * (a[NEW + S + l] - a[S + l])
-            for row in range(0, STATE, WIDTH):
-                a[row + l] = a[NEW + row + l]
-            orthonormalise(a, l, tangents, -relaxed)
+            frame[PASSAGES, l] += passages
+            Y, new[W, l] = end, math.copysign(abs(end) ** (1 / n), end)
+            relaxed = alpha * (new[S, l] - now[S, l])
+            for row in range(8):
+                now[row, l] = new[row, l]
+            orthonormalise(block, l, tangents, -relaxed)
             factor = min(4.0, 0.9 * e ** (-1 / 6)) if e > 0 else 4.0
-            a[CREEP + l] = h * factor if factor < 1 else max(a[CREEP + l], h * factor)  # h may have been cut
+            step[CREEP, l] = h * factor if factor < 1 else max(step[CREEP, l], h * factor)  # h may have been cut
         else:
-            a[CREEP + l] = h * (max(0.2, 0.9 * e ** (-1 / 6)) if e < 1e300 else 0.2)
-        if h == left and e <= 1.0:
-            if component == W:
+            step[CREEP, l] = h * (max(0.2, 0.9 * e ** (-1 / 6)) if e < 1e300 else 0.2)
+        if h == ahead and e <= 1.0:
+            if event == W:
                 return NO_CROSSING
-            a[T + l] = a[TARGET + l]
+            now[T, l] = owner[TARGET, l]
             return DONE
-        speed, power = powers(a, l, a[W + l], TWO_POWERS)
-        phi = a[M + l] * speed
-        if a[CREEP + l] * a[ALPHA + l] * a[N + l] * power < _LEAVE * switch * phi and not resting:
-            a[MOVE + l], a[CREEP + l] = a[CREEP + l] / phi * (a[M + l] + phi), 0.0
-            a[H + l] = a[MOVE + l]
-            rate(a, l, tangents)
+        speed, power = powers(osc, l, now[W, l], TWO_POWERS)
+        phi = m * speed
+        if step[CREEP, l] * alpha * n * power < _LEAVE * switch * phi and not resting:
+            step[MOVE, l], step[CREEP, l] = step[CREEP, l] / phi * (m + phi), 0.0
+            step[H, l] = step[MOVE, l]
             return GOING
     return TOO_MANY_STEPS

@@ -5,40 +5,16 @@ Everything is each lane's own and chosen by selection instead of branches, so th
 
 import math
 
-import numpy as np
-from numba import njit
-
-from ..compiled import compiled
-from ..vectors import widest_vectors
+from ..compiled import inlined, inner
+from ..memory import widest_vectors
+from ..vectors import root, where
 from .block import (
-    ALPHA,
-    EVALUATIONS,
-    EVENT,
-    FAR,
-    GAIN,
-    GAMMA,
-    MOVE,
-    NEW,
-    RATE,
-    REJECTED,
-    SIGN,
-    SLOPES,
-    STATE,
-    STEPS,
-    TARGET,
-    WIDTH,
-    H,
-    M,
-    N,
-    P,
-    S,
-    T,
-    W,
-    X,
-)
+    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, LEFT, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, REJECTED, SIGN, SLOPES,
+    STEP, TARGET, H, M, N, P, S, T, W, X, eights,
+)  # fmt: skip
 from .dop853 import error
-from .equations import LINEAR, TWO_POWERS, stiffness
-from .event_location import crosses
+from .equations import SMOOTH, TWO_POWERS, stiffness
+from .event_location import reaches
 from .radau import SLOW, at_rest
 from .tangent_frame import collapses
 
@@ -51,74 +27,76 @@ _OVERFLOWS = 1e150  # and without a cubic force or p > 1, which alone do that: i
 _FRESH = 0.7
 
 
-@njit(forceinline=True)
-def not_beyond(a, l, component, t, h):
+@inlined
+def not_beyond(osc, owner, l, event, t, h):
     """The step h, cut at the target where sigma is time."""
-    left = a[TARGET + l] - t
-    return left if (component == T) & (a[M + l] == 1.0) & (abs(left) < abs(h)) else h
+    left = owner[TARGET, l] - t
+    return where((event == T) & (osc[M, l] == 1.0) & (abs(left) < abs(h)), left, h)
 
 
-@njit(forceinline=True)
-def _judge_lane(a, l, component, tangents, control, kind):
-    """Accept the step to NEW or not (REJECTED), choose the next one, and say what more there is to do (EVENT)."""
-    rtol, atol, most_steps, switch = control
-    h, x, t = a[H + l], a[NEW + X + l], a[NEW + T + l]
-    e = error(a, l, rtol, atol, kind)
+@inlined
+def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, control, kind):
+    """Accept the steps to NEW or not (REJECTED), choose the next ones, and say what more there is to do (OUTCOME)."""
+    rtol, atol, switch = control
+    h, x, t, rate = step[H, c], new[X, c], new[T, c], slopes[LAST]
+    e = error(now, new, slopes, osc, step, c, rtol, atol, kind)
     fits = e <= 1.0
-    arrives = (fits & crosses(a, l, component)) | (a[FAR + l] != 0.0)
-    relaxation = a[ALPHA + l] * a[RATE + S + l]  # per sigma
-    fastest = np.sqrt(abs(stiffness(a, l, x))) * a[RATE + T + l] + relaxation
-    factor = 0.9 / np.sqrt(np.sqrt(np.sqrt(e)))
-    most = 1.0 if a[REJECTED + l] != 0.0 else 6.0
-    grown, fresh = abs(h) * (factor if factor < most else most), _FRESH / fastest
-    length = grown if grown < fresh else fresh
-    length = a[SIGN + l] * (length if fits else abs(h) * (factor if factor > 0.2 else 0.2))  # 0.2 if e is no number
-    cut = not_beyond(a, l, component, t if fits else a[T + l], length)
-    a[MOVE + l], a[H + l] = a[MOVE + l] if arrives else length, h if arrives else cut
-    a[REJECTED + l] = 0.0 if fits else 1.0
-    a[STEPS + l] += 1.0
-    a[EVALUATIONS + l] += 12.0
+    arrives = (fits & reaches(now, new, owner, c, event)) | (step[FAR, c] != 0.0)
+    relaxation = osc[ALPHA, c] * rate[S, c]  # per sigma
+    fastest = root(abs(stiffness(osc, c, x))) * rate[T, c] + relaxation
+    factor = 0.9 / root(root(root(e)))
+    most = where(step[REJECTED, c] != 0.0, 1.0, 6.0)
+    grown, fresh = abs(h) * where(factor < most, factor, most), _FRESH / fastest
+    length = where(grown < fresh, grown, fresh)
+    length = owner[SIGN, c] * where(fits, length, abs(h) * where(factor > 0.2, factor, 0.2))  # 0.2 if e is no number
+    cut = not_beyond(osc, owner, c, event, where(fits, t, now[T, c]), length)
+    step[MOVE, c], step[H, c] = where(arrives, step[MOVE, c], length), where(arrives, h, cut)
+    step[REJECTED, c] = where(fits, 0.0, 1.0)
+    step[LEFT, c] = step[LEFT, c] - 1.0
+    owner[EVALUATIONS, c] = owner[EVALUATIONS, c] + 12.0
 
-    event = COLLAPSES if (tangents == 2) & collapses(a, l) else GOING
-    if kind != LINEAR:  # what befalls only where the damping is stiff
-        event = _stiff_event(a, l, h, relaxation, rtol, switch, fits, event)
-    event = NO_CROSSING if (component == W) & (abs(t) > abs(a[TARGET + l])) else event
-    tame = (a[GAMMA + l] == 0.0) & (a[P + l] <= 1.0)
-    event = event if abs(x) < (_OVERFLOWS if tame else _ESCAPED) else DIVERGED
-    event = event if fits else GOING
-    goes_on = (event == GOING) | (event == COLLAPSES)  # where a solution blows up the frame may collapse at every step
-    event = TOO_MANY_STEPS if goes_on & (a[STEPS + l] >= most_steps) else event
-    a[EVENT + l] = ARRIVES if arrives else event
+    outcome = where((tangents == 2) & collapses(new, c), COLLAPSES, GOING)
+    if kind != SMOOTH:  # what befalls only where the damping is stiff
+        outcome = _stiff_outcome(new, rate, osc, step, owner, c, h, relaxation, rtol, switch, fits, outcome)
+    outcome = where((event == W) & (abs(t) > abs(owner[TARGET, c])), NO_CROSSING, outcome)
+    tame = (osc[GAMMA, c] == 0.0) & (osc[P, c] <= 1.0)
+    outcome = where(abs(x) < where(tame, _OVERFLOWS, _ESCAPED), outcome, DIVERGED)
+    outcome = where(fits, outcome, GOING)
+    # Where a solution blows up the frame may collapse at every step.
+    goes_on = (outcome == GOING) | (outcome == COLLAPSES)
+    outcome = where(goes_on & (step[LEFT, c] <= 0.0), TOO_MANY_STEPS, outcome)
+    step[OUTCOME, c] = where(arrives, ARRIVES, outcome)
 
 
-@njit(forceinline=True)
-def _stiff_event(a, l, h, relaxation, rtol, switch, fits, event):
-    """CREEPS or PAST_UNKNOWN where p < 1 and the motion rests or relaxes fast, else the event as it is."""
-    x, w, m, n = a[NEW + X + l], a[NEW + W + l], a[M + l], a[N + l]
-    resting = at_rest(a, l, x, m * a[RATE + W + l], m * a[RATE + S + l] * w / n)  # phi = 0 there
-    slow = abs(a[RATE + W + l]) < SLOW * relaxation * abs(w) / n
-    forward, sticky = a[SIGN + l] > 0.0, a[P + l] < 1.0
+@inlined
+def _stiff_outcome(new, rate, osc, step, owner, c, h, relaxation, rtol, switch, fits, outcome):
+    """CREEPS or PAST_UNKNOWN where p < 1 and the motion rests or relaxes fast, else the outcome as it is."""
+    x, w, m, n = new[X, c], new[W, c], osc[M, c], osc[N, c]
+    resting = at_rest(osc, c, x, m * rate[W, c], m * rate[S, c] * w / n)  # phi = 0 there
+    slow = abs(rate[W, c]) < SLOW * relaxation * abs(w) / n
+    forward, backward, sticky = owner[SIGN, c] > 0.0, owner[SIGN, c] < 0.0, osc[P, c] < 1.0
     # Backward, the slow branch repels. What stays on it that long has amplified its error beyond use.
-    gain = a[GAIN + l] + relaxation * abs(h) if slow else 0.0
-    a[GAIN + l] = gain if fits else a[GAIN + l]
-    event = CREEPS if sticky & forward & ((slow & (relaxation * abs(h) > switch)) | resting) else event
+    gain = where(slow, step[GAIN, c] + relaxation * abs(h), 0.0)
+    step[GAIN, c] = where(fits, gain, step[GAIN, c])
+    outcome = where(sticky & forward & ((slow & (relaxation * abs(h) > switch)) | resting), CREEPS, outcome)
     lost = (gain > max(3.0, math.log(1e-4 / rtol))) | resting
-    return PAST_UNKNOWN if sticky & (a[SIGN + l] < 0.0) & lost else event
+    return where(sticky & backward & lost, PAST_UNKNOWN, outcome)
 
 
-@compiled
-def judge(a, eights, component, tangents, control, kind):
-    """Of each lane: is its step to NEW accepted, which is the next, what more is to do; accepted ends are taken."""
+@inner
+def accept_steps(block, number, event, tangents, control, kind):
+    """Of each lane: is its step to NEW accepted, which is the next, what more is to do; accepted ends become NOW."""
     widest_vectors()
-    if kind == LINEAR:
-        for l in range(8 * eights):
-            _judge_lane(a, l, component, tangents, control, LINEAR)
+    now, new, slopes, osc = eights(block, NOW), eights(block, NEW), eights(block, SLOPES), eights(block, OSC)
+    step, owner, first, last = eights(block, STEP), eights(block, OWNER), slopes[0], slopes[LAST]
+    if kind == SMOOTH:
+        for c in range(number):
+            _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, control, SMOOTH)
     else:
-        for l in range(8 * eights):
-            _judge_lane(a, l, component, tangents, control, TWO_POWERS)
-    for row in range(0, STATE - (2 - tangents) * 2 * WIDTH, WIDTH):
-        for l in range(8 * eights):
-            taken = (a[REJECTED + l] == 0.0) & (a[EVENT + l] != ARRIVES)
-            # Read first, choose then: a choice between two reads is a branch, which vector units do not have.
-            state, new, slope, rate = a[row + l], a[NEW + row + l], a[SLOPES + row + l], a[RATE + row + l]
-            a[row + l], a[SLOPES + row + l] = new if taken else state, rate if taken else slope
+        for c in range(number):
+            _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, control, TWO_POWERS)
+    for c in range(number):
+        taken = (step[REJECTED, c] == 0.0) & (step[OUTCOME, c] != ARRIVES)
+        for row in range(4 + 2 * tangents):
+            now[row, c] = where(taken, new[row, c], now[row, c])
+            first[row, c] = where(taken, last[row, c], first[row, c])
