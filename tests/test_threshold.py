@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq, fsolve, minimize_scalar
 
 from book.studies import dry_friction
 from book.studies.dry_friction import dry_friction_tangency
@@ -23,30 +23,31 @@ PHASES = np.linspace(0, 2 * np.pi, 9)
 def scipy_orbit(osc, x, w, t, event):
     """(x, w, t) where the event next rises through zero, w = sign(v) |v|^p, by SciPy alone.
 
-    Eq. 1 with ds = dt / (1 + dv/dw) as the variable: a creep through v = 0 is too singular for x and v in time.
+    Eq. 1 in s, dt/ds = phi / (1 + phi) with phi = dv/dw: a creep through v = 0 is too singular for x and v in time.
     """
     alpha, p, mu, omega, delta, gamma = map(float, osc.columns()[:, 0])
 
     def slope(s, y):
         x, w, t = y
         speed = min(abs(w), 2.0) ** (1 / p - 1)  # in trials only w is as large as that
+        phi = speed / p + 1e-9  # the small part lets time go on where F = 0 in a creep
         force = mu * math.cos(omega * t) - (delta + gamma * x * x) * x
-        return np.array([speed / p * speed * w, force - alpha * w, speed / p]) / (1 + speed / p)
+        return np.array([phi * speed * w, force - alpha * w, phi]) / (1 + phi)
 
     def ends(s, y):
         return event(*y)
 
     ends.terminal, ends.direction = True, 1
-    way = solve_ivp(slope, (0, 1e300), (x, w, t), "DOP853", events=ends, rtol=1e-11, atol=1e-14)
+    way = solve_ivp(slope, (0, 1e300), (x, w, t), "LSODA", events=ends, rtol=1e-11, atol=1e-14)
     assert way.status == 1, way.message
     return way.y[:, -1]
 
 
 def scipy_height(osc, x, w):
-    """exp(-t), t from the turn in the right well to when the orbit from (x, w) at phase 0 next leaves a well's bottom
-    outwards; positive if that is the left well. In units of sqrt(-delta)."""
+    """exp(-t), t from the turn in the right well to when the orbit from (x, w) at phase pi/2 next leaves a well's
+    bottom outwards; positive if that is the left well. In units of sqrt(-delta)."""
     well, unit = math.sqrt(-osc.delta / osc.gamma), 1 / math.sqrt(-osc.delta)
-    out = scipy_orbit(osc, x, w, 0.0, lambda x, w, t: x - well)
+    out = scipy_orbit(osc, x, w, osc.period / 4, lambda x, w, t: x - well)
     turn = scipy_orbit(osc, *out, lambda x, w, t: -w)
     end = scipy_orbit(osc, *turn, lambda x, w, t: max(abs(x) - well if w * x > 0 else -1.0, t - turn[2] - 50 * unit))
     return -math.copysign(math.exp((turn[2] - end[2]) / unit), end[0])
@@ -55,17 +56,20 @@ def scipy_height(osc, x, w):
 def scipy_highest(osc):
     """The greatest height of W^U over the hump by SciPy alone, everything forward in time.
 
-    The saddle orbit is what starts two periods before at the x that parts leaving to the right from leaving to the
-    left, found by bisection. Positions beside it are as good as W^U once the flow has contracted what they miss it by.
+    The saddle orbit is a fixed point of half a period and the mirror, found by fsolve where it is fast, a quarter of a
+    period on. Positions beside it are as good as W^U once the flow has contracted what they miss it by.
     """
-    well, low, high = math.sqrt(-osc.delta / osc.gamma), -0.1, 0.1
-    while high - low > 1e-14:
-        middle = (low + high) / 2
-        end = scipy_orbit(osc, middle * well, 0.0, -2 * osc.period, lambda x, w, t: abs(x) - 0.6 * well)
-        low, high = (low, middle) if end[0] > 0 else (middle, high)
-    x, w, _ = scipy_orbit(osc, low * well, 0.0, -2 * osc.period, lambda x, w, t: t)
+    period, well = osc.period, math.sqrt(-osc.delta / osc.gamma)
+
+    def half(state):
+        return scipy_orbit(osc, *state, period / 4, lambda x, w, t: t - 0.75 * period)[:2]
+
+    fast = (osc.omega * osc.mu / (osc.omega**2 - osc.delta)) ** osc.p
+    (x, w), _, found, message = fsolve(lambda z: half(z) + z, (0.0, fast), xtol=1e-11, epsfcn=1e-9, full_output=True)
+    assert found == 1, message
     near = 1e-6 * well
-    stretch = (scipy_orbit(osc, x + near, w, 0.0, lambda x, w, t: t - osc.period)[0] - x) / near
+    image = -half(-half((x + near, w)))  # the mirror twice
+    stretch = (image[0] - x) / near
 
     def depth(place):
         return -scipy_height(osc, x + near * stretch**place, w)
