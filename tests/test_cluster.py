@@ -81,13 +81,14 @@ def test_a_block_that_goes_on_killing_its_worker_is_named(client):
 
 def test_the_program_in_the_chapter_gives_the_same_bits(tmp_path):
     text = (Path(__file__).parents[1] / "chapters" / "scale.md").read_text(encoding="utf-8")
-    first_cell = re.search(r"^```\{code-cell\}[^\n]*\n(.*?)^```", text, re.S | re.M)[1]
+    # The imports and the call: the first two cells.
+    shown = re.findall(r"^```\{code-cell\}[^\n]*\n(?::tags:[^\n]*\n)?(.*?)^```", text, re.S | re.M)[:2]
     (program,) = re.findall(
         r"^```python\n(from dask.distributed import Client, LocalCluster\n.*?)^```", text, re.S | re.M
     )
     script = tmp_path / "program.py"
-    # The first cell stands under the guard, too: workers import the program.
-    guarded = "".join(f"    {line}\n" for line in first_cell.splitlines())
+    # The cells stand under the guard, too: workers import the program.
+    guarded = "".join(f"    {line}\n" for cell in shown for line in cell.splitlines())
     script.write_text(
         f"import sys\nif __name__ == '__main__':\n{guarded}{program}"
         "    print(np.array_equal(there, here), there.shape, np.unique(there).size)\n",

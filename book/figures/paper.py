@@ -119,15 +119,29 @@ def fig3b(p, mu_c, p_onset, onset):
 
 
 @styled
-def fig4(mu, exponent, p, threshold):
-    """lambda_1 versus mu with the threshold line (Fig. 4a: p = 0.1, Fig. 4b: p = 1)."""
-    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)")
+def fig4(mu, exponent, p, threshold, limits=None, window=None):
+    """lambda_1 versus mu with the threshold line (Fig. 4a: p = 0.1, Fig. 4b: p = 1).
+
+    limits : of the exponent's axis, None for the curve's own
+    window : (first, last mu, least, greatest exponent) of an inset, None for none
+    """
+    fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)", figsize=(6.8, 4.4))
+    _exponents(axes, mu, exponent, p, threshold)
+    axes.set(xlim=(mu[0], mu[-1]), ylim=limits)
+    if window is not None:
+        inset = axes.inset_axes((0.49, 0.1, 0.48, 0.44))
+        _exponents(inset, mu, exponent, p, threshold, ".-", markersize=3.5)
+        inset.set(xlim=window[:2], ylim=window[2:])
+        inset.tick_params(labelsize=9)
+        axes.indicate_inset_zoom(inset, edgecolor=BLACK)
+    fig.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=2)
+    return fig
+
+
+def _exponents(axes, mu, exponent, p, threshold, style="-", **look):
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axhline(threshold, color=GREY, linestyle="--", linewidth=1.0, label=rf"threshold $\lambda_1 = {threshold:g}$")
-    axes.plot(mu, exponent, color=line_of(p)["color"], linewidth=1.1, label=f"$p = {p:g}$")
-    axes.set_xlim(mu[0], mu[-1])
-    fig.legend(loc="outside upper right", ncols=2)
-    return fig
+    axes.plot(mu, exponent, style, color=line_of(p)["color"], linewidth=1.1, label=f"$p = {p:g}$", **look)
 
 
 @styled

@@ -5,7 +5,7 @@ import numpy as np
 from .style import BLACK, GREY, ORANGE, P_COLOUR, SKY, PageFigure, panel, styled
 
 KERNELS = {"rk4": (BLACK, "o", "-", "Runge-Kutta"), "friction": (ORANGE, "D", "--", "friction time")}
-COST_TICKS = (0.1, 0.3, 1, 3, 10, 30, 100)
+COST_TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 
 
 @styled
@@ -51,7 +51,9 @@ def ratios(names, medians):
 
 @styled
 def cost_growth(series):
-    """How cost grows, one panel a series: dict (xlabel, "log" or "linear") -> dict kernel -> (values, costs)."""
+    """How cost grows, one panel a series: dict (xlabel, scale of x) -> dict kernel -> (values, costs).
+
+    The scale is "log" or "linear"."""
     fig = PageFigure(figsize=(6.8, 5.0))
     panels = fig.subplots(2, -(-len(series) // 2))
     for axes, ((xlabel, scale), curves) in zip(panels.flat, series.items(), strict=True):
@@ -62,14 +64,11 @@ def cost_growth(series):
                 values, costs, color=colour, marker=marker, linestyle=dash if scale == "log" else "none", label=label
             )
         axes.axhline(1, color=SKY, linewidth=1.0, zorder=0)
-        axes.set(xlabel=xlabel, xscale=scale, yscale="log" if scale == "log" else "linear")
-        if scale == "linear":
-            axes.set_ylim(bottom=0)
-        else:
-            low, high = axes.get_ylim()
-            ticks = [tick for tick in COST_TICKS if low < tick < high]
-            axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
-            axes.tick_params(axis="y", which="minor", left=False, labelleft=False)
+        axes.set(xlabel=xlabel, xscale=scale, yscale="log")
+        low, high = axes.get_ylim()
+        ticks = [tick for tick in COST_TICKS if low < tick < high]
+        axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.tick_params(axis="y", which="minor", left=False, labelleft=False)
     fig.supylabel("cost, relative", fontsize=11)
     fig.legend(*panels.flat[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return fig

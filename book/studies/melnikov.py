@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import mpmath
 
-from duffing import checks
+from duffing import Duffing, checks
 from duffing.errors import ConvergenceError
-from duffing.melnikov import loop_velocity
+from duffing.melnikov import loop_velocity, melnikov_function
 
 
 def melnikov_quadrature(osc, t0, digits=50):
@@ -93,3 +93,18 @@ def _whole_line_sum(osc, t0, digits, damping):
 
         at, between = (osc.mu * total(mpmath.mpf(shift)) for shift in (0, 0.5))
         return (at + between) / 2, abs(at - between) / 2
+
+
+# p, omega, delta, gamma of the problems at which the chapter compares the closed form with the sums, as decimal text.
+PROBLEMS = tuple((p, *rest) for p in ("0.1", "0.5", "1", "3") for rest in (("0.2", "-1", "1"), ("4", "-1.7", "0.6")))
+
+
+def agreeing_digits(problems, alpha="0.1", mu="0.3", t0="0.7", digits=50):
+    """Digits to which the closed form of M(t0) and the sums agree over the problems (p, omega, delta, gamma): int."""
+    worst = mpmath.mpf(0)
+    with mpmath.workdps(digits + 15):
+        t0 = mpmath.mpf(t0)
+        for p, omega, delta, gamma in problems:
+            osc = Duffing(*map(mpmath.mpf, (alpha, p, mu, omega, delta, gamma)))
+            worst = max(worst, abs(melnikov_quadrature(osc, t0, digits=digits) / melnikov_function(osc, t0) - 1))
+        return int(mpmath.floor(-mpmath.log10(worst)))

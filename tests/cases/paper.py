@@ -91,6 +91,9 @@ def _exponents(p):
     return {"mu": mu, "exponent": exponent}
 
 
+FIG_4 = (-1.4, 0.3), (0.225, 0.295, -0.15, 0.25)  # the exponent's axis and the inset
+
+
 def _near_exponents(window, regular):
     def compare(data, reference):
         to_roundoff(data, {"mu": reference["mu"]})
@@ -135,12 +138,12 @@ CASES = {
     "fig3b": Case(_onsets, lambda d: figures.fig3b(d["p"], d["mu_c"], d["p_onset"], d["onset"]), _near_onsets),
     "fig4a": Case(
         lambda: _exponents(paper.P_SMALL),
-        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_SMALL, paper.THRESHOLD),
+        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_SMALL, paper.THRESHOLD, *FIG_4),
         _near_exponents(window=(0.268, 0.277), regular=(0.10, 0.18)),
     ),
     "fig4b": Case(
         lambda: _exponents(paper.P_LINEAR),
-        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_LINEAR, paper.THRESHOLD),
+        lambda d: figures.fig4(d["mu"], d["exponent"], paper.P_LINEAR, paper.THRESHOLD, *FIG_4),
         _near_exponents(window=(0.235, 0.260), regular=(0.0, 0.15)),
     ),
     # Late motion: a chaotic attractor's extent statistically; a periodic orbit's to the noise of the step.
