@@ -47,16 +47,22 @@ def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
     t = checks.times(t)
     state = checks.state(state, osc.shape)
 
-    def states(members=slice(None)):
+    def states(members):
         return integrate(osc.members(members), state[:, members], t, method=method, **options).states
 
-    if checks.choice("on_failure", on_failure, POLICIES) == "raise":
-        found = states()
-    else:
-        from .sweep.failures import answers  # when it is asked for
+    return answered(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
 
-        found = answers(states, osc, (2, t.size))
-    return found.reshape(2, t.size, *osc.shape)
+
+def answered(function, osc, rows, on_failure):
+    """function(members) for all N members of a family: array (*rows, N); on_failure : "raise", or "nan".
+
+    function : takes a slice or an index array (n,) of members, returns an array (*rows, n) or raises a DuffingError
+    """
+    if checks.choice("on_failure", on_failure, POLICIES) == "raise":
+        return function(slice(None))
+    from .sweep.failures import answers  # when it is asked for
+
+    return answers(function, osc, rows)
 
 
 def stroboscopic_times(osc, periods, transient=0, phase=0.0):

@@ -16,9 +16,9 @@ BAD = {
     "t": NUMBERS,
     "periods": [0, *COUNTS],
     "k": [0, 3, *COUNTS],
-    "max_steps": [0, *COUNTS],
     "steps_per_period": [0, *COUNTS],
-    "threads": [0, *(bad for bad in COUNTS if bad is not None)],  # None: as many as there are processors
+    # None: as many threads as there are processors, as many steps as the interval is long
+    **{name: [0, *(bad for bad in COUNTS if bad is not None)] for name in ("threads", "max_steps")},
     "transient": COUNTS,
     "phase": NUMBERS,
     "t0": NUMBERS,

@@ -134,3 +134,10 @@ def test_the_section_shows_wells_chaos_and_the_large_orbit_at_small_p():
     osc = replace(basin_study.oscillator(0.1, mu=0.27), p=0.1)
     large = classify(osc, (1.3, 1.38), 40, last=16, **STATISTICS)
     assert large == LARGE
+
+
+def test_the_dimension_counted_near_a_tangency_solves_its_sum():
+    """4 (l^(-nd) + l^(-(n + 1)d) + ...) = 1 with n = ln(1/distance)/ln(l): here n = 2, l = 10, the sum term by term."""
+    d = basin_study.counted_dimension(1e-2, 10.0)
+    assert 4 * sum(10.0 ** (-n * d) for n in range(2, 400)) == pytest.approx(1.0)
+    assert basin_study.counted_dimension(1e-8, 10.0) < d < basin_study.counted_dimension(1e-1, 10.0)

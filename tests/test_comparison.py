@@ -141,3 +141,11 @@ def test_compared_gives_the_wandering_of_each_forcing():
     alone = wandering(Duffing(p=1.0, mu=np.array([0.26])), starts_between_wells(8, 4), 120, **STEP)
     assert found.exponent[1] == alone.exponent[0]
     assert found.share.shape == found.dissipated.shape == (2,)
+
+
+def test_the_fixed_step_raises_the_exponent_of_chaos_at_small_p():
+    by_step, exact = comparison_study.chaotic_exponents((0.268, 0.272), columns=6, rows=4)
+    change = by_step.exponent - exact.exponent
+    error = np.hypot(by_step.error, exact.error)
+    assert change.mean() > 3 * np.sqrt(np.sum(error**2)) / 2 > 0
+    assert change.mean() < 0.03

@@ -7,7 +7,7 @@ import pytest
 
 from book.studies import small_p
 from duffing import ConvergenceError, Duffing, saddle_orbit, trajectory
-from duffing.transients.crisis import crisis, edge_distance, large_saddle, saddles
+from duffing.transients.crisis import beyond, crisis, crisis_above, edge_distance, large_saddle, saddles
 from duffing.transients.lifetimes import both_wells, lifetimes
 
 LINEAR = Duffing(p=1.0, mu=np.array([0.242, 0.250]))  # one before the crisis at p = 1, one after it
@@ -86,3 +86,22 @@ def test_what_cannot_be_found_is_named(found):
         edge_distance(LINEAR, found, points=20, periods=1, **STEP)
     with pytest.raises(ValueError, match=r"^points = 0"):
         edge_distance(LINEAR, found, points=0)
+
+
+def test_a_crisis_searched_for_from_below_is_the_one_bisected_in_a_bracket():
+    osc, outer = Duffing(p=1.0, mu=np.array([0.0])), large_saddle(Duffing(p=1.0, mu=0.235))
+    found = crisis_above(osc, 0.235, outer, step=0.01, steps=4, points=200, **STEP)
+    bracketed = crisis(osc, 0.235, 0.255, outer, steps=5, points=200, **STEP)
+    np.testing.assert_allclose(found, bracketed, atol=1e-9)
+    assert np.isinf(crisis_above(osc, 0.235, outer, step=0.005, tries=2, points=100, **STEP)[0])
+    with pytest.raises(ConvergenceError, match=r"mu = 0.255: W\^U reaches beyond the border there already"):
+        crisis_above(osc, 0.255, outer, points=100, **STEP)
+
+
+def test_a_manifold_that_stays_away_from_the_border_does_not_reach_beyond_it(found):
+    np.testing.assert_array_equal(beyond(LINEAR, found, points=200, **STEP), [False, True])
+    early = Duffing(p=1.0, mu=np.array([0.2]))
+    away = saddles(early, large_saddle(Duffing(p=1.0, mu=0.2)))
+    assert not beyond(early, away, points=100, **STEP)[0]
+    with pytest.raises(ConvergenceError, match="no point comes within"):
+        edge_distance(early, away, points=100, **STEP)

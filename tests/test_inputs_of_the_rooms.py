@@ -70,6 +70,10 @@ CALLS = {
     "transients.crisis.crisis": {
         "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "upper": 0.26, "outer": OUTER, "steps": 1, "points": 200
     },
+    "transients.crisis.crisis_above": {
+        "osc": Duffing(alpha=0.1, mu=[0.0]), "lower": 0.24, "outer": OUTER, "step": 0.02, "tries": 1, "steps": 1,
+        "points": 100
+    },
     "basins.fates.classify": {"osc": OSC, "states": START, "periods": 6, "last": 4},
     "transients.lifetimes.lifetimes": {
         "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
@@ -90,14 +94,14 @@ WITHIN = {
     " orbits_at side_by_side switch_branches",
     "basins": "boundary_dimension capture changed classify_path contracted_form first_capture ordered neighbourhood"
     " points_of trap",
-    "transients": "both_wells edge_distance returns",
+    "transients": "beyond both_wells edge_distance returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
 STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
 POINT = BAD["state"]
 SOME = [bad for bad in STATES if bad is not None]  # None: a grid of them
 WRONG = BAD | {
-    **{key: POSITIVE for key in ("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least")},
+    **{key: POSITIVE for key in ("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least", "step")},
     **{
         key: [0, *COUNTS]
         for key in (
@@ -111,6 +115,7 @@ WRONG = BAD | {
             "resamples",
             "digits",
             "steps",
+            "tries",
             "points",
         )
     },

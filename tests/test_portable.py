@@ -82,6 +82,8 @@ for module, names in ((os, ("getuid", "geteuid", "setuid", "fork", "kill", "kill
     for name in names:
         if hasattr(module, name):
             delattr(module, name)
+if hasattr(os, "process_cpu_count"):
+    os.process_cpu_count = os.cpu_count  # as it is where there is no affinity
 import importlib, pkgutil
 import numpy as np
 import duffing

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from book.studies import transients as transient_study
-from duffing import ConvergenceError, paper, poincare_section, trajectory
+from duffing import ConvergenceError, paper, poincare_section, saddle_orbit, trajectory
 from duffing.transients.survival import exponential
 
 STEP = {"method": "rk4"}
@@ -122,3 +122,25 @@ def test_starts_between_the_wells_fill_their_box():
     assert starts.shape == (2, 15)
     np.testing.assert_array_equal(starts.min(axis=1), [-1.0, -0.4])
     np.testing.assert_array_equal(starts.max(axis=1), [1.0, 0.4])
+
+
+def test_lifetimes_below_the_fold_level_off():
+    """At 1e-4 and 1e-6 below the fold they agree, where a crisis would let them grow without bound."""
+    mean, error = transient_study.below_fold((1e-4, 1e-6), columns=12, rows=12, periods=800)
+    assert abs(mean[0] - mean[1]) < 4 * np.hypot(*error)
+    mu = transient_study.folds((0.1,))[0][0]
+    time, settled, _ = transient_study.sample(float(mu - 1e-4), columns=12, rows=12, periods=800)
+    assert mean[0] == exponential(time, settled, transient_study.SINCE).mean
+
+
+def test_the_fixed_step_moves_the_crisis_at_small_p_by_no_more_than_its_resolution():
+    exact, stepped = (transient_study.crises((0.1,), points=200, steps=4, by_step=by)[0] for by in (False, True))
+    assert abs(exact - stepped) < 1.5e-3
+
+
+def test_the_exponent_of_the_crisis_is_that_of_the_saddle_orbits_multipliers():
+    """At p = 1 Liouville's theorem gives the smaller multiplier: l1 l2 = exp(-alpha T)."""
+    (gamma,) = transient_study.crisis_exponent((1.0,))
+    mu = transient_study.crises((1.0,))[0]
+    larger = np.log(abs(saddle_orbit(replace(paper.OSCILLATOR, p=1.0, mu=mu)).multipliers[0]))
+    assert gamma == pytest.approx(0.5 + larger / (larger + 0.1 * 2 * np.pi), abs=1e-5)

@@ -3,6 +3,7 @@
     planes      lambda_1 over the planes of the chapter "The whole plane", 400 x 400
     basins      basins of attraction, 512 x 512 starts: seconds a picture at p = 1, about a minute at p = 0.1
     transients  the figures of the chapter on the contradiction, from more starts and finer grids
+    wedge       the figures of the chapter "Where chaos lasts", on finer grids and for every pair
     candidates  the likelihood of alpha and omega in steps of 0.005 and 0.00625, with a list of the likeliest
     window      the window of chaos at p = 0.1 from 200 starts
     headline    the picture in the README, docs/headline.svg: the first figure of the book
@@ -15,6 +16,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import maps_plane
 import numpy as np
 
 from book.figures import basins as basin_figures
@@ -151,13 +153,14 @@ MAPS = {
     "planes": (planes,),
     "basins": (basin_pictures,),
     "transients": (survival_curves, lifetimes_and_rates, exponents),
+    "wedge": (maps_plane.apexes, maps_plane.pairs, maps_plane.regions),
     "candidates": (candidates,),
     "window": (window,),
     "headline": (headline,),
 }
 
 if __name__ == "__main__":
-    names = sys.argv[1:] or ["planes", "basins", "transients", "candidates"]
+    names = sys.argv[1:] or ["planes", "basins", "transients", "candidates", "wedge"]
     if unknown := [name for name in names if name not in MAPS]:
         sys.exit(f"{' '.join(unknown)}: must be among {', '.join(MAPS)}")
     for name in names:

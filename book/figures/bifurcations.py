@@ -5,7 +5,7 @@ A branch comes as (name, parameter (n,), value (n,) or (k, n), stable (n,) bool)
 
 import numpy as np
 
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, PageFigure, line_of, styled
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, PageFigure, line_of, panel, styled
 
 ORBIT_COLOUR = {"in a well": BLUE, "round both wells": VERMILION, "saddle orbit": GREY, "period 3": GREEN}
 LOCUS_LOOK = {
@@ -146,3 +146,38 @@ def _legend(fig, axes):
     for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
         labels.setdefault(label, handle)
     fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)
+
+
+@styled
+def in_well_chaos(curves):
+    """lambda_1 of the motion in a well above the accumulation of its doublings: dict p -> (distance, exponent), the
+    distance in mu from the accumulation; nan once the motion is captured."""
+    name = r"distance $\mu - \mu_A$ from the accumulation, in $10^{-4}$"
+    fig, axes = panel(name, r"$\lambda_1$ (per unit time)", figsize=(6.4, 3.6))
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    for (p, (distance, exponent)), marker in zip(curves.items(), ("o", "s", "^", "D", "v"), strict=False):
+        look = line_of(p) | {"linestyle": "-", "linewidth": 0.8}
+        axes.plot(1e4 * distance, exponent, marker=marker, markersize=3, **look)
+    axes.legend()
+    return fig
+
+
+@styled
+def accumulations(over_p, over_alpha, over_omega):
+    """The accumulation of the doublings in a well as a multiple of mu_c: against p, alpha and omega.
+
+    over_p : (p, ratio); over_alpha, over_omega : dict p -> (values, ratio)
+    """
+    fig = PageFigure(figsize=(6.8, 3.3))
+    panels = fig.subplots(1, 3, sharey=True)
+    panels[0].plot(*over_p, "o-", color=BLACK, markersize=3.5)
+    for axes, curves in zip(panels[1:], (over_alpha, over_omega), strict=True):
+        for (p, (value, ratio)), marker in zip(curves.items(), "os", strict=False):
+            axes.plot(value, ratio, marker=marker, markersize=3.5, **line_of(p))
+    names = (r"$p$ ($\alpha = 0.1$, $\omega = 1$)", r"$\alpha$ ($\omega = 1$)", r"$\omega$ ($\alpha = 0.1$)")
+    for axes, name in zip(panels, names, strict=True):
+        axes.axhline(1, color=GREY, linewidth=0.9)
+        axes.set_xlabel(name)
+    fig.supylabel(r"$\mu_A / \mu_c$", fontsize=10)
+    panels[1].legend()
+    return fig

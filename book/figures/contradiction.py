@@ -92,13 +92,19 @@ def edge_distances(distances):
 
 
 @styled
-def passage(distance, periods, anchor):
-    """Periods spent at the place of the fold against the distance in mu above it, and the power -1/2 through anchor."""
-    fig, axes = panel(r"distance $\mu - \mu_F$ above the fold", "periods to leave its place", figsize=(5.6, 3.6))
-    axes.loglog(distance, periods, "o", color=VERMILION, label="computed")
+def passage(distance, periods, anchor, below):
+    """Both sides of the fold on logarithmic axes: times to leave its place above it, lifetimes of chaos below it.
+
+    distance, periods (n,) : above the fold, with the power -1/2 through `anchor`
+    below : (distance, lifetime, error), (m,) each
+    """
+    fig, axes = panel(r"distance $|\mu - \mu_F|$ from the fold", "forcing periods", figsize=(6.0, 3.8))
+    axes.loglog(distance, periods, "o", color=VERMILION, label="above: to leave the place of the fold")
     reach = np.array([min(distance), max(distance)])
     axes.loglog(reach, anchor[1] * (reach / anchor[0]) ** -0.5, color=GREY, linewidth=1.0, label="power $-1/2$")
-    axes.legend()
+    look = {"fmt": "o", "color": BLUE, "fillstyle": "none", "markersize": 5, "capsize": 2}
+    axes.errorbar(*below, **look, label="below: mean lifetime of chaos")
+    axes.legend(fontsize=9)
     return fig
 
 

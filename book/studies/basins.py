@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import brentq
 
 from duffing import paper
 from duffing.basins.attractors import find_attractors
@@ -71,6 +72,18 @@ def line_dimensions(p, ratios, most=30_000):
     found = [strips(p, ratio, number) for ratio, number in zip(ratios, most, strict=True)]
     values, errors = np.array([boundary_dimension(one) for one in found]).T
     return values, errors, np.array([one.left.size for one in found])
+
+
+def below(ratios, most, tangency):
+    """The (ratio, most) whose ratio is less than the tangency; most : as for `line_dimensions`."""
+    pairs = zip(ratios, np.broadcast_to(most, len(ratios)).tolist(), strict=True)
+    return [(ratio, number) for ratio, number in pairs if ratio < tangency]
+
+
+def counted_dimension(distance, multiplier):
+    """d with 4 sum over n >= ln(1/distance)/ln(multiplier) of multiplier^(-n d) = 1: the strips that excursions of n
+    periods make near a tangency, at the relative distance in mu above it."""
+    return float(brentq(lambda d: 4 * distance**d / (1 - multiplier**-d) - 1, 1e-6, 1.0))
 
 
 @remembered

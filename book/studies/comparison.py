@@ -88,6 +88,20 @@ def chaotic_starts(mu, p, columns=8, rows=5, periods=199, osc=paper.OSCILLATOR, 
     return Chaotic(chaotic.mean(axis=1), *mean_ratio(np.where(chaotic, found, 0.0), 1 * chaotic), found.max(axis=1))
 
 
+@remembered
+def chaotic_exponents(mu, p=paper.P_SMALL, columns=8, rows=5, periods=400, osc=paper.OSCILLATOR):
+    """Two Chaotic for a tuple of forcings: by the paper's fixed step, and in friction time."""
+    state = small_p.starts(columns, rows)
+    family = replace(osc, p=p, mu=np.repeat(np.array(mu)[:, None], state.shape[1], axis=1))
+    start, found = np.repeat(state[:, None], len(mu), axis=1), []
+    for options in ({"method": "rk4"}, integrator(p)):
+        one = lyapunov_spectrum(family, start, periods, 40, k=1, history=False, **options).exponents[0]
+        chaotic = one > paper.THRESHOLD  # a mean that a capture has diluted is no exponent of chaos
+        mean = mean_ratio(np.where(chaotic, one, 0.0), 1 * chaotic)
+        found.append(Chaotic(chaotic.mean(axis=1), *mean, one.max(axis=1)))
+    return tuple(found)
+
+
 def at_equal_ratio(ratios=RATIOS, p=P, osc=paper.OSCILLATOR, **sizes):
     """The Chaotic, each part (len(ratios), len(p)), at ratio times mu_c; sizes : as for `chaotic_starts`."""
     mu = [np.array(ratios) * critical_amplitude(replace(osc, p=exponent)) for exponent in p]

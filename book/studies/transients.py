@@ -101,12 +101,41 @@ def folds(p=P_CRISIS, osc=paper.OSCILLATOR):
 
 
 @remembered
-def crises(p=P_CRISIS, points=400, steps=6, osc=paper.OSCILLATOR):
-    """The forcing (n,) of the boundary crisis for each p of the tuple, within 0.008 / 2^steps, by the paper's step."""
-    lower = np.interp(p, P_CRISIS, BELOW)
-    outer = [large_saddle(replace(osc, p=q, mu=mu)) for q, mu in zip(p, lower, strict=True)]
-    family = replace(osc, p=np.array(p))
-    return crisis(family, lower, lower + ABOVE, np.transpose(outer), steps=steps, points=points, method="rk4")
+def crises(p=P_CRISIS, points=400, steps=6, by_step=False, osc=paper.OSCILLATOR):
+    """The forcing (n,) of the boundary crisis for each p of the tuple, within 0.008 / 2^steps.
+
+    In friction time for p < 1; by_step : by the paper's step throughout, for comparison
+    """
+    p = np.array(p)
+    lower, found = np.interp(p, P_CRISIS, BELOW), np.empty(p.size)
+    outer = np.transpose([large_saddle(osc.members(0, p=q, mu=mu)) for q, mu in zip(p, lower, strict=True)])
+    for chosen, options in ((p >= 1, {"method": "rk4"}), (p < 1, {"method": "rk4"} if by_step else {})):
+        if chosen.any():
+            ends, family = lower[chosen], replace(osc, p=p[chosen])
+            found[chosen] = crisis(family, ends, ends + ABOVE, outer[:, chosen], steps=steps, points=points, **options)
+    return found
+
+
+@remembered
+def crisis_exponent(p=P_CRISIS, osc=paper.OSCILLATOR):
+    """The exponent (n,) of the mean lifetime above the crisis, (mu - mu_X)^-gamma, for each p of the tuple.
+
+    gamma = 1/2 + ln |l1| / |ln |l2||, l1, l2 the multipliers of the saddle orbit whose unstable manifold touches the
+    border (Grebogi, Ott, Romeiras and Yorke 1987, heteroclinic tangency); 1/2 where l2 = 0.
+    """
+    mu = crises(p)
+    outer = [large_saddle(osc.members(0, p=q, mu=value)) for q, value in zip(p, mu, strict=True)]
+    larger, smaller = saddles(replace(osc, p=np.array(p), mu=mu), np.transpose(outer)).multipliers
+    return 0.5 + np.divide(np.log(larger), -np.log(smaller, where=smaller > 0, out=np.full(mu.size, -np.inf)))
+
+
+@remembered
+def below_fold(distance, p=paper.P_SMALL, columns=20, rows=20, periods=1000, **sweep):
+    """Mean lifetimes of chaos at the distances in mu below the fold of the small orbits, and one standard error: (n,)
+    each."""
+    mu = folds((p,))[0][0]
+    found = [exponential(*sample(float(mu - d), p, columns, rows, periods, **sweep)[:2], SINCE) for d in distance]
+    return np.array([one.mean for one in found]), np.array([one.error for one in found])
 
 
 @remembered

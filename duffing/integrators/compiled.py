@@ -53,7 +53,7 @@ def compiled(function=None, **options):
         return lambda function: compiled(function, **options)
     if numba.config.DISABLE_JIT:
         return _refused(function)
-    options = {"nogil": True, "error_model": "numpy", **options}
+    options = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, **options}
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _FOLDER
     try:
         return numba.njit(cache=not _UNCACHED, **options)(function)

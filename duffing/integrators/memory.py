@@ -151,6 +151,16 @@ def views(parts, width):
     return view(types.float64, 1), view(DOUBLES, EIGHT)
 
 
+@intrinsic(prefer_literal=True)
+def matrix(typingctx, block, rows, columns):
+    """View of doubles from a pointer on, with constant numbers of rows and columns."""
+
+    def codegen(context, builder, signature, arguments):
+        return arguments[0]
+
+    return View(types.float64, (rows.literal_value, columns.literal_value))(block, rows, columns), codegen
+
+
 @intrinsic
 def apart(typingctx):
     """Keep the function that calls this out of its callers, and short: it is called seldom, and compiled once."""

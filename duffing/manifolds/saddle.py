@@ -6,6 +6,7 @@ import numpy as np
 
 from .. import checks
 from ..errors import NoSaddleOrbitError
+from ..flow import answered
 from ..oscillator import Duffing
 from .shooting import central_orbit
 
@@ -37,18 +38,24 @@ class Frame(NamedTuple):
     growth: np.ndarray
 
 
-def saddle_orbit(osc):
+def saddle_orbit(osc, on_failure="raise"):
     """The saddle orbit near x = 0, by Newton's method with the tangent map. Returns a SaddleOrbit.
+
+    on_failure : "raise", or "nan": members without such an orbit are NaN, and one warning says so
 
     Raises ValueError unless delta < 0 < gamma; NoSaddleOrbitError naming the first member whose orbit sticks (p <= 1/2:
     the stroboscopic map is not invertible there), is not a saddle between the wells, or was not found.
     """
-    frame = saddle_frame(osc)
-    scale = osc.units()[:2]
-    directions = frame.directions[:, :, 0].reshape(2, 2, *osc.shape) * scale
-    directions /= np.hypot(directions[:, 0], directions[:, 1])[:, None]
-    multipliers = np.exp(frame.growth.sum(axis=1)).reshape(2, *osc.shape)
-    return SaddleOrbit(frame.states[:, 0].reshape(2, *osc.shape) * scale, multipliers, *directions)
+
+    def rows(members):
+        part = osc.members(members)
+        frame, scale = saddle_frame(part), part.units()[:2]
+        directions = frame.directions[:, :, 0] * scale
+        directions /= np.hypot(directions[:, 0], directions[:, 1])[:, None]
+        return np.array([frame.states[:, 0] * scale, np.exp(frame.growth.sum(axis=1)), *directions])
+
+    checks.double_well(osc)
+    return SaddleOrbit(*answered(rows, osc, (4, 2), on_failure).reshape(4, 2, *osc.shape))
 
 
 def saddle_frame(osc):

@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import checks
 from ..errors import ConvergenceError
+from ..flow import answered
 from ..integrators.friction_time.turning_points import to_turning_point
 from ..melnikov import critical_amplitude, forcing_integral
 from . import threshold
@@ -29,13 +30,14 @@ _TOLERANCE = 1e-9  # relative, of the tangency
 _LEAST = 1e-7  # of mu, dimensionless: the splitting, of the order of mu, is known to some 1e-14
 
 
-def splitting(osc, phase, method="auto"):
+def splitting(osc, phase, method="auto", on_failure="raise"):
     """x_u - x_s where W^U and W^S first cross v = 0 at the phase, on the right loop (x > 0): positive once they cross.
 
     osc : Duffing, a single oscillator or a family, delta < 0 < gamma
     phase : omega t modulo 2 pi of the crossing (radian), a number or (n,)
     method : "manifolds" follows W^S backward; "threshold" finds x_s forward, as what parts the orbits that fall back
         into the well from those that go over the hump; "auto" is "threshold" for members with p < 1/2 and damping
+    on_failure : "raise", or "nan": members without an answer at one of the phases are NaN, and one warning says so
 
     Returns (*family) or (n, *family), a length. By symmetry the left loop has the same splitting half a period later.
     Raises ValueError for invalid input; NoSaddleOrbitError as `saddle_orbit` ("threshold": as `forward_frame`, which
@@ -54,38 +56,49 @@ def splitting(osc, phase, method="auto"):
     def part_orbits(part):
         return threshold.split(forward_frame(part), phases)
 
+    def differences(members):
+        part = osc.members(members)
+        return _by_method(part, method, follow, part_orbits) * part.units()[0]
+
     checks.double_well(osc)
-    values = _by_method(osc.members(), method, follow, part_orbits)
-    return (values.reshape(phase.shape + osc.shape) * osc.units()[0])[()]
+    checks.choice("method", method, METHODS)
+    return answered(differences, osc, phases.shape, on_failure).reshape(phase.shape + osc.shape)[()]
 
 
-def homoclinic_tangency(osc, method="auto"):
+def homoclinic_tangency(osc, method="auto", on_failure="raise"):
     """The forcing amplitude mu at which W^U and W^S first touch, (*family); osc.mu is not used.
 
     There the greatest splitting over all phases is zero. It is found to about 1e-9, relative (1e-14 / mu where mu, made
-    dimensionless, is below 1e-5), starting from mu_c of Eq. 13. method, errors : as for `splitting`.
+    dimensionless, is below 1e-5), starting from mu_c of Eq. 13. method, on_failure, errors : as for
+    `splitting`.
 
     "manifolds": quasi-Newton steps of mu and of the phase, whose starting values are Melnikov's; then the splitting is
     computed all round to make sure that no other phase is ahead. "threshold": the least mu at which an orbit of W^U
     goes over the hump; no derivative is taken. Raises ConvergenceError also where mu is too small for doubles.
     """
-    unit = checks.model(osc).dimensionless().members()
-    mu = np.array(critical_amplitude(unit))
-    if not np.all(unit.alpha > 0):
+
+    def amplitudes(members):
+        part = osc.members(members)
+        unit = part.dimensionless().members()
+        mu = np.array(critical_amplitude(unit))
+        if np.any(mu < _LEAST):
+            raise ConvergenceError(
+                f"{unit.named(mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for "
+                "doubles"
+            )
+        return _by_method(replace(unit, mu=mu), method, _contact, threshold.tangency) * part.units()[2]
+
+    checks.double_well(osc)
+    checks.choice("method", method, METHODS)
+    if not np.all(osc.columns()[0] > 0):
         raise ValueError(
             f"alpha = {osc.alpha}: must be > 0 for a tangency (at alpha = 0 the manifolds meet for every mu)"
         )
-    if np.any(mu < _LEAST):
-        raise ConvergenceError(
-            f"{unit.named(mu.argmin())}: mu = {mu.min():.1e} (dimensionless) at the tangency is too small for doubles"
-        )
-    values = _by_method(replace(unit, mu=mu), method, _contact, threshold.tangency)
-    return (values.reshape(osc.shape) * osc.units()[2])[()]
+    return answered(amplitudes, osc, (), on_failure).reshape(osc.shape)[()]
 
 
 def _by_method(osc, method, manifolds, forward):
     """Values (..., N) of the N members, each by the function of its method."""
-    checks.choice("method", method, METHODS)
     creeps = (osc.p < 0.5) & (osc.alpha > 0) if method == "auto" else np.full(osc.mu.size, method == "threshold")
     values = None
     for function, which in ((manifolds, ~creeps), (forward, creeps)):

@@ -19,8 +19,9 @@ def answers(function, osc, rows):
 
 
 def attempted(function, members, rows):
-    """As `answers`, in silence. A family that fails is halved until those that fail stand alone: a member's
-    numbers do not depend on its company, so the others' are what they would have been."""
+    """As `answers`, in silence. A family that fails is halved until those that fail stand alone: a member's numbers
+    do not depend on its company (those of the saddle orbit and the tangency by no more than their own error), so the
+    others' are what they would have been."""
     try:
         return function(members)
     except LostWorkerError:
@@ -46,5 +47,5 @@ def announce(result, osc, function):
         f"{failed.size} of {result.shape[-1]} members have no answer and are NaN; the first is member {failed[0]}, "
         f"{osc.named(failed[0])} ({reason})",
         RuntimeWarning,
-        stacklevel=4,
+        stacklevel=5,
     )

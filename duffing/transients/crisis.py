@@ -20,7 +20,7 @@ TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}
 REACH = 0.25  # from the large saddle orbit within which its linear coordinate is used
 _ZOOMS = 12  # neighbourhoods looked at more closely
 _LAUNCH = 1e-6  # from the inner saddle orbit, along its unstable direction
-_CENTRE = (-0.1, 0.04)  # guess of the saddle orbit near x = 0
+_PARTS = 4  # of a step in mu, over which the large saddle orbit is followed
 _SEARCH = np.reshape(np.meshgrid(np.linspace(-1.6, -0.2, 8), np.linspace(0.8, 1.5, 5)), (2, -1))
 
 
@@ -57,7 +57,12 @@ def large_saddle(osc):
 def saddles(osc, outer):
     """Saddles of the family, the large ones near the guesses `outer`, (2,) or (2, n). Errors as `periodic_orbit`."""
     outer = checks.state(outer, checks.model(osc).shape, "outer")
-    inner, outer = periodic_orbit(osc, _CENTRE, 1), periodic_orbit(osc, outer.reshape(2, *osc.shape), 1)
+    _, _, mu, omega, delta, _ = osc.columns()
+    centre = np.array(
+        [-mu / (omega**2 - delta), 0.4 * mu / (1 + omega**2)]
+    )  # the linear, undamped response; a little v
+    inner = periodic_orbit(osc, centre.reshape(2, *osc.shape), 1)
+    outer = periodic_orbit(osc, outer.reshape(2, *osc.shape), 1)
     states = [orbit.state.reshape(2, -1) for orbit in (inner, outer)]
     maps = [np.moveaxis(half_return(osc, state, 1).derivative, -1, 0) for state in states]
     unstable = _eigenvector(maps[0])
@@ -78,6 +83,23 @@ def edge_distance(osc, found, points=600, periods=12, method="auto", **options):
 
     Raises ConvergenceError naming the first member no point of which comes within REACH of the large saddle orbit.
     """
+    distance = _distance(osc, found, points, periods, method, **options)
+    if not np.all(np.isfinite(distance)):
+        bad = int(np.argmax(~np.isfinite(distance)))
+        raise ConvergenceError(f"mu = {osc.columns()[2, bad]}: no point comes within {REACH} of the large saddle orbit")
+    return distance
+
+
+def beyond(osc, found, **options):
+    """Whether W^U of the inner saddle orbits reaches beyond the border (n,): one that stays away from it does not.
+
+    osc : family of n members; found : their Saddles; options : as for `edge_distance`
+    """
+    return _distance(osc, found, **options) < 0
+
+
+def _distance(osc, found, points=600, periods=12, method="auto", **options):
+    """What `edge_distance` returns, infinite for a member no point of which comes near the large saddle orbit."""
     n = found.inner.shape[1]
     share = np.tile(np.arange(checks.count("points", points)) / points, (n, 1))
     options = {"method": method, **(options if method == "rk4" else TOLERANCE | options)}
@@ -85,11 +107,7 @@ def edge_distance(osc, found, points=600, periods=12, method="auto", **options):
     nearest = np.take_along_axis(share, np.argsort(first, axis=1)[:, :_ZOOMS], axis=1)
     around = np.linspace(-1, 1, max(points // _ZOOMS, 2)) / points
     closer = _heights(osc, found, (nearest[..., None] + around).reshape(n, -1), periods, options)
-    distance = np.minimum(first.min(axis=1), closer.min(axis=1))
-    if not np.all(np.isfinite(distance)):
-        bad = int(np.argmax(~np.isfinite(distance)))
-        raise ConvergenceError(f"mu = {osc.columns()[2, bad]}: no point comes within {REACH} of the large saddle orbit")
-    return distance
+    return np.minimum(first.min(axis=1), closer.min(axis=1))
 
 
 def _heights(osc, found, share, periods, options):
@@ -130,10 +148,57 @@ def crisis(osc, lower, upper, outer, steps=9, **options):
         raise ConvergenceError(
             f"mu from {lower[bad]} to {upper[bad]}: distances {ends[0][bad]:.3g} and {ends[1][bad]:.3g} are no bracket"
         )
+    return _bisected(osc, lower, upper, found.outer, steps, options)
+
+
+def crisis_above(osc, lower, outer, step=0.02, tries=15, steps=5, **options):
+    """The first forcings (n,) above `lower` at which W^U reaches beyond the border, on a grid and then by bisection.
+
+    osc : family of n members, its own mu not used; lower : (n,) forcings at which it does not reach beyond
+    outer : guesses (2,) or (2, n) of the large saddle orbits at `lower`
+    step, tries : of the grid; infinite for a member whose W^U keeps to its side up to lower + tries * step
+    steps : of bisection; options : as for `edge_distance`, but a manifold that stays away counts as on its side
+
+    Raises ConvergenceError naming the first member whose W^U reaches beyond at `lower`.
+    """
+    shape = checks.model(osc).columns().shape[1:]
+    lower = np.broadcast_to(checks.parameter("lower", lower), shape).copy()
+    checks.positive("step", step)
+    found = saddles(osc.members(mu=lower), outer)
+    outer, upper = found.outer.copy(), np.full(shape, np.inf)
+    change = np.zeros_like(outer)
+    leaks = beyond(osc.members(mu=lower), found, **options)
+    if leaks.any():
+        bad = int(np.argmax(leaks))
+        raise ConvergenceError(f"mu = {lower[bad]}: W^U reaches beyond the border there already")
+    for _ in range(checks.count("tries", tries)):
+        live = np.flatnonzero(np.isinf(upper))
+        if live.size == 0:
+            break
+        near = outer[:, live]
+        for part in np.arange(1, _PARTS) / _PARTS:
+            guess = near + change[:, live] / _PARTS
+            near = periodic_orbit(osc.members(live, mu=(lower + part * step)[live]), guess, 1).state
+        family = osc.members(live, mu=(lower + step)[live])
+        found = saddles(family, near + change[:, live] / _PARTS)
+        leaks = beyond(family, found, **options)
+        upper[live[leaks]] = lower[live[leaks]] + step
+        on, states = live[~leaks], found.outer[:, ~leaks]
+        lower[on] += step
+        change[:, on], outer[:, on] = states - outer[:, on], states
+    seen = np.flatnonzero(np.isfinite(upper))
+    if seen.size:
+        upper[seen] = _bisected(osc.members(seen), lower[seen], upper[seen], outer[:, seen], steps, options)
+    return upper
+
+
+def _bisected(osc, lower, upper, outer, steps, options):
+    """The forcings (n,) between lower and upper at which the distance changes its sign."""
     for _ in range(checks.count("steps", steps)):
         middle = (lower + upper) / 2
-        found = saddles(osc.members(mu=middle), found.outer)
-        inside = edge_distance(osc.members(mu=middle), found, **options) > 0
+        found = saddles(osc.members(mu=middle), outer)
+        outer = found.outer
+        inside = _distance(osc.members(mu=middle), found, **options) > 0
         lower, upper = np.where(inside, middle, lower), np.where(inside, upper, middle)
     return (lower + upper) / 2
 

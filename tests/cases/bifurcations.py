@@ -12,7 +12,7 @@ from book.studies import resonance
 from duffing import Duffing, critical_amplitude, homoclinic_tangency
 from duffing.orbits.followed import amplitude, at_exponent, curves, marks, stroboscopic
 
-from .case import Case
+from .case import Case, to_roundoff
 
 P = (0.1, 1.0)
 FOUR = (study.IN_WELL, study.LARGE, study.SADDLE, study.THIRD)
@@ -124,10 +124,29 @@ def _draw_large(data):
     return figures.large_orbit(0.3, cases, least, omega_range=(0.5, 2.2))
 
 
+def _in_well():
+    return {"distance": np.arange(5) * 1e-4, "exponent": np.array([0.01, 0.02, -0.01, 0.03, np.nan])}
+
+
+def _accumulations():
+    return {"x": np.array([0.1, 0.5, 1.0]), "ratio": np.array([1.1, 0.9, 1.4])}
+
+
+def _draw_accumulations(d):
+    curves = {0.1: (d["x"], d["ratio"]), 1.0: (d["x"], 1.5 * d["ratio"])}
+    return figures.accumulations((d["x"], d["ratio"] ** 2), curves, {0.1: (d["x"], d["ratio"][::-1])})
+
+
 CASES = {
     "branches": Case(_branches, _draw_branches, near_curves),
     "overlay": Case(_overlay, _draw_overlay, near_curves),
     "loci": Case(_loci, _draw_loci, near_curves),
     "response": Case(_responses, _draw_responses, near_curves),
     "large_response": Case(_large, _draw_large, near_curves),
+    "in_well": Case(
+        _in_well,
+        lambda d: figures.in_well_chaos({0.1: (d["distance"], d["exponent"]), 1.0: (d["distance"], 2 * d["exponent"])}),
+        to_roundoff,
+    ),
+    "accumulations": Case(_accumulations, _draw_accumulations, to_roundoff),
 }

@@ -15,6 +15,7 @@ from duffing.transients.survival import exponential, survival
 
 from .case import Case, to_roundoff
 
+BELOW_FOLD = (np.array([3e-3, 1e-4]), np.array([40.0, 110.0]), np.array([3.0, 6.0]))
 FOLD, CRISIS = {1.0: 0.2502}, {1.0: 0.247}  # where the lines are drawn
 
 
@@ -101,7 +102,7 @@ CASES = {
     ),
     "passage": Case(
         _passage,
-        lambda d: figures.passage(d["distance"], d["periods"], (d["distance"][0], d["periods"][0])),
+        lambda d: figures.passage(d["distance"], d["periods"], (d["distance"][0], d["periods"][0]), BELOW_FOLD),
         within(periods=1),
     ),
     "order": Case(

@@ -16,7 +16,7 @@ from .block import T
 from .scheduler import ANGLE, ANNIHILATIONS, AT_S, AT_V, AT_X, R11, R12, R22
 
 
-def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_000, switch=0.6, threads=None):
+def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=None, switch=0.6, threads=None):
     """Solutions at the times t, each step's error of (x, v) below atol + rtol |(x, v)|.
 
     Parameters
@@ -25,7 +25,8 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
     state : (2,) or (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing or decreasing times, met exactly
     tangents : 0, 1 or 2 tangent vectors; growth and propagators are of each interval. The state does not depend on it.
-    max_steps : for each interval
+    max_steps : the most steps from one time to the next; by default it follows from how long that is, see
+        `batches.most_steps`
     switch : relaxation times an explicit step, 0 < switch <= 0.6, above which a creep is followed by implicit steps;
         the cost depends on it, the result does not
     threads : at most so many at once (default: those the process may use); the result is the same to the last bit
@@ -47,9 +48,9 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=100_0
     tangents = checks.count("tangents", tangents, least=0)
     if tangents > 2:
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
-    control = tolerances(rtol, atol, max_steps, switch)
+    control = tolerances(rtol, atol, switch)
 
-    results, evaluations = integrate_members(columns, state, t, T, -math.inf, tangents, control, threads)
+    results, evaluations = integrate_members(columns, state, t, max_steps, T, -math.inf, tangents, control, threads)
     states = np.concatenate([state[:, None], results[[AT_X, AT_V]]], axis=1)
     return Solution(
         states,

@@ -32,8 +32,8 @@ SPRING, DAMPER = range(2)
 # H: the step in sigma to be tried; MOVE: the one that the tolerance alone allows; CREEP: that of a creep in time, 0 if
 # there is none; NEAR, FAR: bracket of the length of a step that ends on the target, FAR = 0 if there is none; REJECTED:
 # whether the last step was (0 or 1); GAIN: the logarithm by which errors have grown backward on a slow branch; OUTCOME:
-# what befell the lane in its last step; STEPS: since the last target.
-H, MOVE, CREEP, NEAR, FAR, REJECTED, GAIN, OUTCOME, STEPS = range(9)
+# what befell the lane in its last step; LEFT: the steps that may still be taken to the target.
+H, MOVE, CREEP, NEAR, FAR, REJECTED, GAIN, OUTCOME, LEFT = range(9)
 LOG1, LOG2, SHEAR, PASSAGES = range(4)  # log R11, log R22, R12 / R11, passages through zero force
 # TARGET: the time to reach; SIGN: of time; MEMBER: -1 is nobody's; INTERVAL of it; EVALUATIONS: of the force in all.
 TARGET, SIGN, MEMBER, INTERVAL, EVALUATIONS = range(5)

@@ -20,10 +20,9 @@ integral of t^(1-1/p), diverges for p <= 1/2: a tangent direction is annihilated
 import math
 
 import numpy as np
-from numba import carray
 
 from ..compiled import inlined, inner
-from ..memory import stack
+from ..memory import matrix, stack
 from .block import ALPHA, DELTA, GAMMA, MU, NEW, NOW, OSC, XI1, P, S, T, X, lanes
 from .equations import force, stiffness
 
@@ -75,7 +74,7 @@ def radau_step(block, l, Y0, h, tangents, rtol, atol):
     r = 1 / p
     Y, v, phi = stack(8), stack(8), stack(8)
     F, x, spring = stack(8), stack(8), stack(8)
-    J, rhs, order = carray(stack(32), (STAGES, STAGES)), stack(8), stack(8)
+    J, rhs, order = matrix(stack(32), STAGES, STAGES), stack(8), stack(8)
     Y[0], x[0] = Y0, now[X, l]
     phi[0] = r * abs(Y0) ** (r - 1)
     v[0] = phi[0] * Y0 / r

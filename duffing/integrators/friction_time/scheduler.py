@@ -13,9 +13,9 @@ from numba import int64
 from ..compiled import announced, compiled, inner
 from ..memory import apart, stack
 from .block import (
-    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LOG1, LOG2, MEMBER, MOVE, NEW, NOW,
-    OMEGA, OSC, OUTCOME, OWNER, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, STEPS, TARGET,
-    WIDTH, XI1, XI2, H, M, N, P, S, T, W, X, lanes,
+    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LEFT, LOG1, LOG2, MEMBER, MOVE, NEW,
+    NOW, OMEGA, OSC, OUTCOME, OWNER, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, TARGET, WIDTH,
+    XI1, XI2, H, M, N, P, S, T, W, X, lanes,
 )  # fmt: skip
 from .dop853 import step
 from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
@@ -43,12 +43,13 @@ _CREEP_STEP = 1 / 16  # of a forcing period at most, so that no passage of the f
 
 
 @compiled
-def run_lanes(parameters, states, times, event, beyond, tangents, control, results, status, evaluations):
+def run_lanes(parameters, states, times, steps, event, beyond, tangents, control, results, status, evaluations):
     """Carry each member from states (N, 2) through the times (N, n), status (N,).
 
+    steps : (N, n - 1), the most that are taken in each interval
     event : T, or W for the first crossing of v = 0 with x > beyond before the time times[:, 1]
     tangents : 0, 1 or 2 of them
-    control : rtol, atol, bound on the steps of an interval, relaxation times a step above which a creep begins
+    control : rtol, atol, relaxation times a step above which a creep begins
     results : (N, n - 1, 9), in the order of RESULTS; evaluations : (N,) of the force
     """
     block = stack(BLOCK)
@@ -61,10 +62,12 @@ def run_lanes(parameters, states, times, event, beyond, tangents, control, resul
         while l < used:
             moved = False
             if owner[MEMBER, l] >= 0.0 and outcome[l] != GOING:
-                moved = handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations)
+                moved = handle_event(
+                    block, l, times, steps, event, beyond, tangents, control, results, status, evaluations
+                )
             if owner[MEMBER, l] < 0.0 and waiting < status.size:
                 kind = max(kind, load_member(block, l, waiting, parameters, states))
-                start_interval(block, l, int64(0), times, event)
+                start_interval(block, l, int64(0), times, steps, event)
                 waiting, moved = waiting + 1, True
             if owner[MEMBER, l] >= 0.0:
                 if moved:
@@ -102,7 +105,7 @@ def load_member(block, l, member, parameters, states):
 
 
 @inner
-def start_interval(block, l, interval, times, event):
+def start_interval(block, l, interval, times, steps, event):
     """The next time to reach; what is counted since the last begins anew."""
     apart()
     osc, now, step = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP)
@@ -112,14 +115,15 @@ def start_interval(block, l, interval, times, event):
     owner[INTERVAL, l], osc[START, l], owner[TARGET, l] = interval, before, after - before
     owner[SIGN, l] = 1.0 if after > before else -1.0
     now[S, l] = now[T, l] = frame[LOG1, l] = frame[LOG2, l] = frame[SHEAR, l] = frame[PASSAGES, l] = 0.0
-    step[FAR, l] = step[REJECTED, l] = step[GAIN, l] = step[STEPS, l] = step[OUTCOME, l] = 0.0
+    step[FAR, l] = step[REJECTED, l] = step[GAIN, l] = step[OUTCOME, l] = 0.0
+    step[LEFT, l] = steps[member, interval]
     step[MOVE, l] = owner[SIGN, l] * abs(step[MOVE, l])
     step[H, l] = not_beyond(osc, owner, l, event, 0.0, step[MOVE, l])
     owner[EVALUATIONS, l] += 1.0
 
 
 @inner
-def handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations):
+def handle_event(block, l, times, steps, event, beyond, tangents, control, results, status, evaluations):
     """Do what the lane's last step asks for, until it is ready for a step again or its trajectory has ended.
 
     Returns whether the lane has left the point at which its slopes are known.
@@ -148,7 +152,7 @@ def handle_event(block, l, times, event, beyond, tangents, control, results, sta
         if outcome != DONE or interval + 2 == times.shape[1]:
             status[member], evaluations[member], owner[MEMBER, l] = outcome, int(owner[EVALUATIONS, l]), -1.0
             return True
-        start_interval(block, l, interval + 1, times, event)
+        start_interval(block, l, interval + 1, times, steps, event)
         outcome = creep(block, l, event, beyond, tangents, control) if step[CREEP, l] > 0.0 else GOING
     return True
 
@@ -170,14 +174,14 @@ def creep(block, l, event, beyond, tangents, control):
     apart()
     osc, now, new, step = lanes(block, OSC), lanes(block, NOW), lanes(block, NEW), lanes(block, STEP)
     frame, owner = lanes(block, FRAME), lanes(block, OWNER)
-    rtol, atol, most_steps, switch = control
+    rtol, atol, switch = control
     alpha, p, m, n = osc[ALPHA, l], osc[P, l], osc[M, l], osc[N, l]
     Y = powers(osc, l, now[W, l], TWO_POWERS)[1] * now[W, l]
     orthonormalise(block, l, tangents, log_area(block, l, tangents))
-    while step[STEPS, l] < most_steps:
-        step[STEPS, l] += 1.0
-        left = owner[TARGET, l] - now[T, l]
-        h = min(step[CREEP, l], left, _CREEP_STEP * 2 * math.pi / osc[OMEGA, l])
+    while step[LEFT, l] > 0.0:
+        step[LEFT, l] -= 1.0
+        ahead = owner[TARGET, l] - now[T, l]
+        h = min(step[CREEP, l], ahead, _CREEP_STEP * 2 * math.pi / osc[OMEGA, l])
         resting = at_rest(osc, l, now[X, l], force(osc, l, now[X, l], now[T, l]), Y)
         end, e, passages, evaluations = radau_step(block, l, Y, h, tangents, rtol, atol)
         owner[EVALUATIONS, l] += evaluations
@@ -198,7 +202,7 @@ def creep(block, l, event, beyond, tangents, control):
             step[CREEP, l] = h * factor if factor < 1 else max(step[CREEP, l], h * factor)  # h may have been cut
         else:
             step[CREEP, l] = h * (max(0.2, 0.9 * e ** (-1 / 6)) if e < 1e300 else 0.2)
-        if h == left and e <= 1.0:
+        if h == ahead and e <= 1.0:
             if event == W:
                 return NO_CROSSING
             now[T, l] = owner[TARGET, l]

@@ -9,8 +9,8 @@ from ..compiled import inlined, inner
 from ..memory import widest_vectors
 from ..vectors import root, where
 from .block import (
-    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, REJECTED, SIGN, SLOPES, STEP,
-    STEPS, TARGET, H, M, N, P, S, T, W, X, eights,
+    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, LEFT, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, REJECTED, SIGN, SLOPES,
+    STEP, TARGET, H, M, N, P, S, T, W, X, eights,
 )  # fmt: skip
 from .dop853 import error
 from .equations import SMOOTH, TWO_POWERS, stiffness
@@ -37,7 +37,7 @@ def not_beyond(osc, owner, l, event, t, h):
 @inlined
 def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, control, kind):
     """Accept the steps to NEW or not (REJECTED), choose the next ones, and say what more there is to do (OUTCOME)."""
-    rtol, atol, most_steps, switch = control
+    rtol, atol, switch = control
     h, x, t, rate = step[H, c], new[X, c], new[T, c], slopes[LAST]
     e = error(now, new, slopes, osc, step, c, rtol, atol, kind)
     fits = e <= 1.0
@@ -52,7 +52,7 @@ def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, contro
     cut = not_beyond(osc, owner, c, event, where(fits, t, now[T, c]), length)
     step[MOVE, c], step[H, c] = where(arrives, step[MOVE, c], length), where(arrives, h, cut)
     step[REJECTED, c] = where(fits, 0.0, 1.0)
-    step[STEPS, c] = step[STEPS, c] + 1.0
+    step[LEFT, c] = step[LEFT, c] - 1.0
     owner[EVALUATIONS, c] = owner[EVALUATIONS, c] + 12.0
 
     outcome = where((tangents == 2) & collapses(new, c), COLLAPSES, GOING)
@@ -64,7 +64,7 @@ def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, contro
     outcome = where(fits, outcome, GOING)
     # Where a solution blows up the frame may collapse at every step.
     goes_on = (outcome == GOING) | (outcome == COLLAPSES)
-    outcome = where(goes_on & (step[STEPS, c] >= most_steps), TOO_MANY_STEPS, outcome)
+    outcome = where(goes_on & (step[LEFT, c] <= 0.0), TOO_MANY_STEPS, outcome)
     step[OUTCOME, c] = where(arrives, ARRIVES, outcome)
 
 

@@ -27,7 +27,7 @@ class TurningPoint(NamedTuple):
 
 def to_turning_point(
     osc, state, t0, direction=1, beyond=-math.inf, within=None, derivatives=False, rtol=1e-11, atol=1e-13,
-    max_steps=100_000, threads=None,
+    max_steps=None, threads=None,
 ):  # three lines for eleven arguments  # fmt: skip
     """First crossing of v = 0 with x > beyond after (direction = 1) or before (-1) the start, landed on exactly.
 
@@ -37,6 +37,7 @@ def to_turning_point(
     state : (2,) or (2, *family), for a single oscillator also (2, N): the starts
     t0 : the time of the starts, one for all or (N,) each its own
     within : the longest time to look for it (default: 50 forcing periods)
+    max_steps : the most steps in that time; by default it follows from how long that is, see `batches.most_steps`
     derivatives : whether to return dt and dx, too. To first order x does not depend on when it is met, since v = 0
         there: dx is the first row of the tangent map, dt minus the second divided by the force.
 
@@ -53,11 +54,12 @@ def to_turning_point(
     t0 = np.broadcast_to(t0.ravel(), size)
     if direction not in (1, -1):
         raise ValueError(f"direction = {direction!r}: must be 1 or -1")
-    control = tolerances(rtol, atol, max_steps)
+    control = tolerances(rtol, atol)
     longest = np.broadcast_to(100 * np.pi / columns[3] if within is None else checks.positive("within", within), size)
 
     times = np.stack([t0, t0 + direction * longest], axis=1)
-    results, _ = integrate_members(columns, state, times, W, float(beyond), 2 * bool(derivatives), control, threads)
+    tangents = 2 * bool(derivatives)
+    results, _ = integrate_members(columns, state, times, max_steps, W, float(beyond), tangents, control, threads)
     last = results[:, 0]
     t, x = t0 + last[AT_T], last[AT_X]
     if not derivatives:

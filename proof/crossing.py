@@ -1,0 +1,106 @@
+"""A set of solutions is followed to its first crossing of v = 0 beyond the well, x > sqrt(-delta / gamma)."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import arb, arb_mat, arb_poly
+
+from .lohner import enclose, growth, step
+from .oscillator import NotProved, around, ball, drive, force, stiffness, taylor
+
+LONGEST = Fraction(40)  # half periods that a flight may take
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Where a set crosses v = 0: time, x, the force F, and the derivative of (x, v) by r0 at the crossing time."""
+
+    t: arb
+    x: arb
+    F: arb
+    derivative: arb_mat
+
+
+def time_step(x):
+    """The step in half periods at a distance |x|: a Picard enclosure wants h |Df| < 0.5."""
+    return Fraction(1, 8) if x < 0.15 else Fraction(1, 16) if x < 0.5 else Fraction(1, 32)
+
+
+def advance(osc, now, orders, longest):
+    """One step of at most `longest` half periods, halved where the enclosure fails."""
+    part = min(time_step(abs(now.m[0, 0])), longest)
+    for _ in range(6):
+        try:
+            return step(osc, now, ball(part) * arb.pi() / ball(osc.omega), orders, (now.turn + part, now.late))
+        except NotProved as failure:
+            part, why = part / 2, failure
+    raise why
+
+
+def to_phase(osc, now, turn, orders):
+    """The set at the phase turn * pi."""
+    while now.turn < turn:
+        now, _ = advance(osc, now, orders, turn - now.turn)
+    return now
+
+
+def to_crossing(osc, now, orders):
+    """(Crossing of the whole, of the middle): the first one of v = 0 with x beyond the well, x > minus that before it.
+
+    Asserted: on every step v > 0 or x is within the wells; from the first step where that fails F < 0, so that v falls
+    and the zero is one. Raises NotProved.
+    """
+    well = (-ball(osc.delta) / ball(osc.gamma)).sqrt()
+    while now.turn < LONGEST:
+        after, held = advance(osc, now, orders, LONGEST)
+        if not held.x > -well:
+            raise NotProved(f"a solution may go over to the left: x = {held.x.str(5)}")
+        if not (held.v > 0 or held.x < well):
+            if not force(osc, held.x, held.v, now.box()[2], _phases(osc, now, after)) < 0:
+                raise NotProved(f"F < 0 before the crossing, at x = {held.x.str(5)}, v = {held.v.str(5)}")
+            late = _newton(osc, now)
+            if late <= ball(after.turn - now.turn) * arb.pi() / ball(osc.omega):
+                landed, _ = step(osc, now, late, orders, (now.turn, late))
+                crossings = _land(osc, landed, 0), _land(osc, landed, 1)
+                if not crossings[0].x > well:
+                    raise NotProved(f"the crossing is beyond the well: x = {crossings[0].x.str(5)}")
+                return crossings
+        now = after
+    raise NotProved("no crossing of v = 0 in forty half periods")
+
+
+def _phases(osc, now, after):
+    return now.phase(osc).union(after.phase(osc))
+
+
+def _newton(osc, now):
+    """The time until the middle solution crosses, nearly: a point, not proved and not in need of it."""
+    x, v, mu = (now.m[i, 0] for i in range(3))
+    coefficients, _ = taylor(osc, x, v, mu, drive(osc, now.phase(osc).mid(), 20), 20)
+    series = arb_poly([c.mid() for c in coefficients]).derivative()
+    slope, late = series.derivative(), arb(0)
+    for _ in range(8):
+        late = (late - series(late) / slope(late)).mid()
+    return late
+
+
+def _land(osc, now, part):
+    """v is nearly zero: the crossing lies within beta of now, and there is one."""
+    x, v, mu = now.box(part)
+    at = force(osc, x, v, mu, now.phase(osc)).abs_lower()
+    beta = (v.abs_upper() / at * 1.05).upper() + 1e-60
+    for _ in range(6):
+        held = enclose(osc, (x, v, mu), now.phase(osc), around(beta))
+        fall = force(osc, held.x, held.v, mu, now.phase(osc) + ball(osc.omega) * around(beta))
+        if fall < 0 and beta * fall.abs_lower() > v.abs_upper():
+            break
+        beta = 2 * beta
+    else:
+        raise NotProved(f"one crossing within beta = {beta.str(5)}: v = {v.str(5)}, F = {fall.str(5)}")
+    tau = -v / fall
+    pull, damping = stiffness(osc, held.x, held.v)
+    rate = arb_mat([[0, 1, 0], [-pull, -damping, (now.phase(osc) + ball(osc.omega) * tau).cos()], [0, 0, 0]])
+    derivative = now.derivative() + tau * rate * growth(osc, held, beta) * now.derivative()
+    t = now.phase(osc) / ball(osc.omega) + tau
+    x = x + tau * v.union(arb(0))
+    return Crossing(t, x, force(osc, x, arb(0), mu, ball(osc.omega) * t), derivative)

@@ -1,0 +1,104 @@
+"""The unstable manifold: a curve near the saddle orbit by cones, and a piece of it flown to its crossing of v = 0."""
+
+from dataclasses import dataclass
+
+from flint import arb, arb_mat
+
+from .crossing import to_crossing, to_phase
+from .lohner import solution_set
+from .oscillator import NotProved, around
+from .saddle import ORDERS, Saddle, columns, saddle
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The unstable manifold near the saddle orbit at phase 0, for each mu of the saddle's interval.
+
+    The points z*(mu) + E (xi, h(xi)), |xi| <= r, with |h| <= L |xi| and |h'| <= L, E the saddle's frame; one turn of
+    the half map takes xi to at most `factor` |xi|. rest : the interval's middle less the exact number that mu is.
+    """
+
+    osc: object
+    saddle: Saddle
+    rest: arb
+    r: arb
+    L: arb
+    factor: arb
+
+
+def local_curve(osc, mu, spread, rest, r):
+    """The Curve of an oscillator within r; mu, r : exact balls; rest : where in mu + spread its middle is. NotProved.
+
+    With M the derivative of the half map over the box, [[a, b], [c, d]] in the frame: the cone |eta| <= L |xi| is
+    mapped into itself and stretched, and the box covers itself (in by eta, out by xi): then the graph transform works.
+    """
+    base = saddle(osc, mu, spread)
+    start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), 0)
+    end = to_phase(osc, start, 1, ORDERS)
+    M = base.frame.inv() * -columns(end.derivative(), 0, 2)
+    a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))
+    least = M[0, 0].abs_lower()
+    L = arb(0)
+    for _ in range(4):
+        L = (1.01 * (c + d * L) / (least - b * L)).upper()
+    for step, holds in (
+        ("the cone is mapped into itself", c + d * L < L * (least - b * L)),
+        ("vectors of the cone are stretched", least - b * L > 1),
+        ("the box is left through xi", (least - b) * r > r),
+        ("the box is entered through eta", c + d < 1),
+        ("graphs of the cone draw together", d + b * L < 1),
+    ):
+        if not holds:
+            raise NotProved(f"{step}: |a| >= {least.str(4)}, b = {b.str(4)}, c = {c.str(4)}, d = {d.str(4)}")
+    return Curve(osc, base, rest, r, L, (a + b * L).upper())
+
+
+def _start(base, xi, whole, middle, turn):
+    """The set z* + E (xi + r0[0], r0[1]) for mu + r0[2], r0 in `whole`, with its part in `middle`, at phase turn * pi.
+
+    At phase pi the saddle orbit is at -z*, and what the half map does about it is the same.
+    """
+    sign, E = (1 - 2 * turn), base.frame
+    z, slope = sign * base.z, sign * base.slope
+    centre = z.mid() + E * arb_mat([[xi], [0]])
+    m, drift = centre.mid(), slope - slope.mid()
+    C = arb_mat([[E[0, 0], E[0, 1], slope[0, 0].mid()], [E[1, 0], E[1, 1], slope[1, 0].mid()], [0, 0, 1]])
+    error = z - z.mid() + (centre - m) + drift * whole[2]
+    derivative_error = arb_mat([[0, 0, drift[0, 0]], [0, 0, drift[1, 0]], [0, 0, 0]])
+    point = (m[0, 0], m[1, 0], base.mu)
+    return solution_set(point, whole, middle, C, (error[0, 0], error[1, 0], 0), derivative_error, turn)
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A piece of the manifold where it crosses v = 0.
+
+    t, x : of the piece's middle at mu; time : of the whole; slope : dx/dt along the piece; by_mu : dx/dmu at fixed t;
+    rate : dt/dxi; F : the force there.
+    """
+
+    t: arb
+    x: arb
+    time: arb
+    slope: arb
+    by_mu: arb
+    rate: arb
+    F: arb
+
+
+def fly(curve, low, high, turn=0, orders=(16, 10)):
+    """The Flight of the piece low <= xi <= high (exact balls) from phase turn * pi, for each mu. Raises NotProved."""
+    base = curve.saddle
+    xi = ((low + high) / 2).mid()
+    half, slack = around(max(high - xi, xi - low).upper()), (curve.L * high).upper()
+    start = _start(base, xi, (half, around(slack), base.spread), (0, around(slack), curve.rest), turn)
+    whole, middle = to_crossing(curve.osc, start, orders)
+    V, tilt = whole.derivative, around(curve.L)
+    u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
+    rate = -u_v / whole.F
+    if not whole.F < 0:
+        raise NotProved(f"F < 0 where v = 0: F = {whole.F.str(5)}")
+    if not rate < 0:
+        raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")
+    slope = -u_x * whole.F / u_v
+    return Flight(middle.t, middle.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate, whole.F)
