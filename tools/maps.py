@@ -143,7 +143,7 @@ def window():
 
 
 def headline():
-    p, touching = np.linspace(0.02, 3.1, 300), np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
+    p, touching = np.linspace(0.02, 3.1, 300), np.array([0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
     tangency, onset = homoclinic_tangency(Duffing(p=touching)), reproduction.onsets(paper.P_ONSET)
     figure = index.headline(p, critical_amplitude(Duffing(p=p)), touching, tangency, np.array(paper.P_ONSET), onset)
     write(figure, ROOT / "docs" / "headline.svg")
