@@ -107,9 +107,9 @@ clean:
 	rm -rf _build build *.egg-info .pytest_cache .ruff_cache .hypothesis
 	find . \( -name .venv -o -name .venv-bench \) -prune -o -name __pycache__ -prune -exec rm -rf {} +
 
-# The reference data and images of the figures, after a change that is meant to alter them.
+# The reference data and images of the figures, after a change that is meant to alter them; CASE=name for one of them.
 baselines: $(READY)
-	$(BIN)/python -m pytest tests/test_figures.py --regenerate
+	$(BIN)/python -m pytest tests/test_figures.py --regenerate $(if $(CASE),-k $(CASE))
 
 # Pins every package anew from pyproject.toml, keeping the present versions where they still fit (delete environment.txt
 # first to update all). The maintainer's own target, and the only one that needs uv: it resolves for all systems at once.
