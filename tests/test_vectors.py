@@ -132,7 +132,7 @@ def _arithmetic(a, b, c):
 @numba.njit
 def _choices(a, b, c):
     inside = (a < b) & (b <= c) | (a > 1.0) | (b >= 2.0) | (c == 0.0)
-    return where(inside, -a, where(a != b, 3.0, c))
+    return where(inside, -a, where(a != b, max(c, 1.25), c))
 
 
 @numba.njit
