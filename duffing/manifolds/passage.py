@@ -78,7 +78,7 @@ def overshoot(frame, x, t, member):
     member : (n,) number of the frame's member that each belongs to
 
     A length along W^U, carried back to the turn by the growth of the linearised flow: continuous, its sign and its zero
-    right to exp(-34), its size roughly. Second result (n,): whether the orbit is near the saddle orbit at the last look.
+    right to exp(-34), its size roughly. Second result (n,): whether an orbit is near the saddle orbit at the last look.
     """
     nodes, step = len(frame.t), (frame.t[1] - frame.t[0])[member]
     first = np.floor(t / step).astype(int) + 1
