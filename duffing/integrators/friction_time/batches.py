@@ -18,8 +18,8 @@ _MOST = 256  # members of a part at most
 # of the forcing, of the linear spring, or of the cubic one where it balances the forcing amplitude, whichever is the
 # shortest. Time that no longer goes on, where a solution becomes infinite, ends an interval of any length. The motion
 # needs ten to some hundred steps in a period; a large alpha with p = 1, whose relaxation they follow, about 10 alpha.
-# Where the periods of an interval are so many that it could take more than the last, about an hour, each has less.
-_STEPS, _STEPS_OF_A_PERIOD, _MOST_STEPS = 100_000, 10_000, 10**9
+# Where the periods of an interval are so many that it could take more than the last, some minutes, each has less.
+_STEPS, _STEPS_OF_A_PERIOD, _MOST_STEPS = 100_000, 10_000, 10**8
 _MOST_P = 1e4  # beyond it steps across |v| = 1, where the damping sets in like a wall, become endless
 _FAILURES = {
     DIVERGED: (DivergedError, "the solution leaves every bound"),
