@@ -4,24 +4,45 @@ from itertools import cycle
 
 import numpy as np
 
+from .paper import draw_manifolds, fig2
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, PageFigure, line_of, panel, styled
 
 
 @styled
 def collapse(phase, curves, theory):
-    """Scaled splitting against the phase for several alpha (dict alpha -> array) and Melnikov's function."""
-    fig, axes = panel(
-        r"phase $\omega t_0$ of the crossing (radian)", r"splitting $\times\,\partial H^0/\partial x\,/\,\alpha$"
-    )
-    axes.axhline(0, color=GREY, linewidth=0.8)
-    axes.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")
+    """Scaled splitting against the phase for several alpha (dict alpha -> array), and what it differs by from theory."""
+    fig = PageFigure(figsize=(8.6, 3.8))
+    whole, rest = fig.subplots(1, 2)
+    whole.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")
     looks = zip(
         cycle((ORANGE, GREEN, BLUE, VERMILION)), cycle((":", "-.", "--", (0, (4, 2)), (0, (1, 3)))), strict=False
     )  # 20 in all
     for (alpha, curve), (colour, dash) in zip(curves.items(), looks, strict=False):
-        axes.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\alpha = {alpha:g}$")
-    axes.set_xlim(phase[0], phase[-1])
-    axes.legend()
+        whole.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\alpha = {alpha:g}$")
+        rest.plot(phase, curve - theory, color=colour, linestyle=dash)
+    whole.set_ylabel(r"splitting $\times\,\partial H^0/\partial x\,/\,\alpha$")
+    rest.set_ylabel(r"the same minus $\mathrm{M}(t_0)/\alpha$")
+    for axes in (whole, rest):
+        axes.axhline(0, color=GREY, linewidth=0.8)
+        axes.set(xlabel=r"phase $\omega t_0$ of the crossing (radian)", xlim=(phase[0], phase[-1]))
+    fig.legend(loc="outside upper center", ncols=len(curves) + 1)
+    return fig
+
+
+@styled
+def lobes(loop, cases, touch):
+    """Manifolds of the right loop below, at and above tangency, as cases of `paper.fig2`; an inset enlarges the touch.
+
+    touch : limits of x and of v of the inset in the middle panel, ((2,), (2,))
+    """
+    fig = fig2([loop], cases, xlim=(-0.25, 1.6), ylim=(-0.95, 0.95))
+    middle = fig.axes[1]
+    inset = middle.inset_axes([0.27, 0.3, 0.4, 0.4], xlim=touch[0], ylim=touch[1])
+    draw_manifolds(inset, [loop], *cases[1][1:3])
+    inset.set(xticks=touch[0], yticks=[])
+    inset.tick_params(labelsize=8)
+    inset.spines[:].set_visible(True)
+    middle.indicate_inset_zoom(inset, edgecolor=BLACK)
     return fig
 
 
