@@ -10,7 +10,7 @@ from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, PageFigure, line
 
 @styled
 def collapse(phase, curves, theory):
-    """Scaled splitting against the phase for several alpha (dict alpha -> array), and what it differs by from theory."""
+    """Scaled splitting against the phase for several alpha (dict alpha -> array), and its difference from theory."""
     fig = PageFigure(figsize=(8.6, 3.8))
     whole, rest = fig.subplots(1, 2)
     whole.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")

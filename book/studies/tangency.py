@@ -28,7 +28,6 @@ class Parting(NamedTuple):
     x_s: float
 
 
-@remembered
 def lobes(osc, amplitudes, length=14.0, spacing=0.004):
     """Manifolds of the right loop at the phase pi/2 as cases of `figures.lobes`: (title, [W^S], [W^U]) for each mu.
 
