@@ -4,7 +4,7 @@ from itertools import cycle
 
 import numpy as np
 
-from .paper import draw_manifolds, fig2
+from .paper import draw_manifolds
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, PageFigure, line_of, panel, styled
 
 
@@ -31,18 +31,22 @@ def collapse(phase, curves, theory):
 
 @styled
 def lobes(loop, cases, touch):
-    """Manifolds of the right loop below, at and above tangency, as cases of `paper.fig2`; an inset enlarges the touch.
+    """Manifolds of the right loop below, at and above tangency, (title, [W^S], [W^U]) each, and the touch enlarged.
 
-    touch : limits of x and of v of the inset in the middle panel, ((2,), (2,))
+    touch : limits of x and of v about the contact, ((2,), (2,))
     """
-    fig = fig2([loop], cases, xlim=(-0.25, 1.6), ylim=(-0.95, 0.95))
-    middle = fig.axes[1]
-    inset = middle.inset_axes([0.27, 0.3, 0.4, 0.4], xlim=touch[0], ylim=touch[1])
-    draw_manifolds(inset, [loop], *cases[1][1:3])
-    inset.set(xticks=touch[0], yticks=[])
-    inset.tick_params(labelsize=8)
-    inset.spines[:].set_visible(True)
-    middle.indicate_inset_zoom(inset, edgecolor=BLACK)
+    fig = PageFigure(figsize=(6.8, 6.4))
+    panels = fig.subplots(2, 2).ravel()
+    enlarged = (f"{cases[1][0]}, enlarged", *cases[1][1:])
+    for axes, (title, stable, unstable) in zip(panels, [*cases, enlarged], strict=True):
+        draw_manifolds(axes, [] if axes is panels[3] else [loop], stable, unstable)  # it would hide the contact
+        axes.set_title(title, fontsize=10)
+        axes.set(xlim=(-0.25, 1.6), ylim=(-0.95, 0.95), xlabel="displacement $x$", ylabel="velocity $v$")
+    (left, right), (low, high) = touch
+    panels[1].plot((left, right, right, left, left), (low, low, high, high, low), color=BLACK, linewidth=0.8)
+    panels[3].set(xlim=touch[0], ylim=touch[1])
+    handles, labels = panels[0].get_legend_handles_labels()
+    fig.legend(handles, labels, loc="outside upper center", ncols=3)
     return fig
 
 
