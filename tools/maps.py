@@ -1,6 +1,6 @@
 """The book's pictures from far more numbers than a book may take: `make maps`, or `make maps WHAT="basins window"`.
 
-    planes      lambda_1 over the planes of the chapter "The whole plane", 400 x 400
+    planes      lambda_1 over the planes of the chapter on maps (chapters/maps.md), 400 x 400
     basins      basins of attraction, 512 x 512 starts: seconds a picture at p = 1, about a minute at p = 0.1
     transients  the figures of the chapter on the contradiction, from more starts and finer grids
     wedge       the figures of the chapter "Where chaos lasts", on finer grids and for every pair
