@@ -57,7 +57,7 @@ class ChaoticRange(NamedTuple):
 
 
 def chaotic_range(mu, exponents, above=0.05):
-    """The ChaoticRange of the exponents (starts, n) at the forcings mu (n,); above : it an exponent counts as chaotic."""
+    """The ChaoticRange of the exponents (starts, n) at the forcings mu (n,); above : the least of chaos."""
     part = (exponents > above).mean(axis=0)
     any_of, most = mu[part > 0], mu[part > 0.5]
     between = part[(mu >= most.min()) & (mu <= most.max())]
