@@ -1,4 +1,4 @@
-"""The presets of the chapter on the contradiction: small sizes, each number by another way."""
+"""The presets of the chapters on transients and the window: small sizes, each number by another way."""
 
 from dataclasses import replace
 

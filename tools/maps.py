@@ -1,8 +1,8 @@
 """The book's pictures from far more numbers than a book may take: `make maps`, or `make maps WHAT="basins window"`.
 
-    planes      lambda_1 over the planes of the chapter "The whole plane", 400 x 400
+    planes      lambda_1 over the planes of the chapter on maps (chapters/maps.md), 400 x 400
     basins      basins of attraction, 512 x 512 starts: seconds a picture at p = 1, about a minute at p = 0.1
-    transients  the figures of the chapter on the contradiction, from more starts and finer grids
+    transients  the figures of transients, the window and the exponents compared, from more starts and finer grids
     wedge       the figures of the chapter "Where chaos lasts", on finer grids and for every pair
     candidates  the likelihood of alpha and omega in steps of 0.005 and 0.00625, with a list of the likeliest
     window      the window of chaos at p = 0.1 from 200 starts
@@ -20,9 +20,10 @@ import maps_plane
 import numpy as np
 
 from book.figures import basins as basin_figures
-from book.figures import contradiction, index, small_p
+from book.figures import exponents_compared, index, small_p, window_ends
 from book.figures import maps as plane_figures
 from book.figures import missing_parameters as candidate_figures
+from book.figures import transients as transient_figures
 from book.studies import basins, comparison, inference, maps, missing_parameters, reproduction, transients
 from book.studies import small_p as small_p_study
 from duffing import Duffing, critical_amplitude, homoclinic_tangency, paper
@@ -81,7 +82,7 @@ def survival_curves():
         chance = law_test(time, settled, since, until=2000)[1]
         print(f"mu = {mu}: mean lifetime {fit.mean:.1f} +- {fit.error:.1f}, probability of the law {chance:.2f}")
         curves[rf"$\mu = {mu:g}$"] = (*survival(time, settled), since, fit.mean)
-    figure = contradiction.survival_curves(curves, transients.sample_of_the_paper()[0])
+    figure = transient_figures.survival_curves(curves, transients.sample_of_the_paper()[0])
     write(figure, FOLDER / "survival.svg")
 
 
@@ -98,12 +99,12 @@ def lifetimes_and_rates():
     lines = [{p: values[transients.P_CRISIS.index(p)] for p in grid} for values in (folds, crises)]
     means = {p: (one.mu, one.mean, one.error) for p, one in found.items()}
     bounds = {p: (one.mu, one.bound) for p, one in found.items()}
-    write(contradiction.mean_lifetimes(means, *lines, bounds), FOLDER / "mean_lifetimes.svg")
+    write(transient_figures.mean_lifetimes(means, *lines, bounds), FOLDER / "mean_lifetimes.svg")
     rates = {p: (one.mu, one.small, one.large) for p, one in found.items()}
-    write(contradiction.capture_rates(rates, *lines), FOLDER / "capture_rates.svg")
+    write(transient_figures.capture_rates(rates, *lines), FOLDER / "capture_rates.svg")
     p = np.array(transients.P_CRISIS)
     critical = critical_amplitude(replace(paper.OSCILLATOR, p=p))
-    write(contradiction.order_of_events(p, critical, folds, crises), FOLDER / "order_of_events.svg")
+    write(window_ends.order_of_events(p, critical, folds, crises), FOLDER / "order_of_events.svg")
 
 
 def exponents():
@@ -112,10 +113,10 @@ def exponents():
     for p, (columns, rows) in comparison.GRID.items():
         mu, ratio, w = comparison.compared(p, columns=4 * columns, rows=4 * rows, **KEPT)
         curves[p] = (mu, ratio, w.dissipated, w.spread, w.exponent, w.error, w.share > 0.5)
-    write(contradiction.exponents_compared(curves), FOLDER / "exponents_compared.svg")
+    write(exponents_compared.exponents_compared(curves), FOLDER / "exponents_compared.svg")
     strong = np.round(np.arange(0.30, 1.501, 0.01), 3)
     shares = {p: (strong, comparison.chaotic_starts(strong, p, **KEPT).share) for p in comparison.P}
-    write(contradiction.strong_forcing(shares), FOLDER / "strong_forcing.svg")
+    write(exponents_compared.strong_forcing(shares), FOLDER / "strong_forcing.svg")
 
 
 def candidates(alpha_step=0.005, omega_step=0.00625):
@@ -143,7 +144,7 @@ def window():
 
 
 def headline():
-    p, touching = np.linspace(0.02, 3.1, 300), np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
+    p, touching = np.linspace(0.02, 3.1, 300), np.array([0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
     tangency, onset = homoclinic_tangency(Duffing(p=touching)), reproduction.onsets(paper.P_ONSET)
     figure = index.headline(p, critical_amplitude(Duffing(p=p)), touching, tangency, np.array(paper.P_ONSET), onset)
     write(figure, ROOT / "docs" / "headline.svg")

@@ -1,4 +1,4 @@
-"""Figures of branches of periodic orbits, their bifurcations and resonances: arrays in, a Figure out.
+"""Figures of branches of periodic orbits and their bifurcations: arrays in, a Figure out.
 
 A branch comes as (name, parameter (n,), value (n,) or (k, n), stable (n,) bool), a mark as (kind, parameter, value).
 """
@@ -8,6 +8,8 @@ import numpy as np
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, PageFigure, line_of, panel, styled
 
 ORBIT_COLOUR = {"in a well": BLUE, "round both wells": VERMILION, "saddle orbit": GREY, "period 3": GREEN}
+# The letters of the cast, for the legends.
+LETTERS = {"in a well": "S, R", "round both wells": "L, D", "saddle orbit": "H", "period 3": "P3"}
 LOCUS_LOOK = {
     "in a well, fold": (BLUE, "-"),
     "in a well, flip": (SKY, "--"),
@@ -42,6 +44,11 @@ def colour_of(name):
     return ORBIT_COLOUR[name]
 
 
+def label_of(name):
+    """The name of a branch or of its bifurcation with the letters of the cast in front."""
+    return f"{LETTERS[name.partition(', ')[0]]}: {name}"
+
+
 @styled
 def branch_panels(cases, last):
     """Amplitude against mu, a panel for each p: dict p -> (branches, marks, mu_c)."""
@@ -50,11 +57,11 @@ def branch_panels(cases, last):
     for axes, (p, (branches, marks, mu_c)) in zip(panels.flat, cases.items(), strict=False):
         axes.axvline(mu_c, color=BLACK, linestyle=":", linewidth=1.0, label=r"$\mu_c$, Eq. 13")
         for name, mu, value, stable in branches:
-            draw_branch(axes, mu, value, stable, color=colour_of(name), label=name)
+            draw_branch(axes, mu, value, stable, color=colour_of(name), label=label_of(name))
         draw_marks(axes, marks)
         axes.set_title(f"$p = {p:g}$", fontsize=10)
         axes.set(xlim=(0, last), ylim=(0, None))
-    _legend(fig, panels.flat[0])
+    legend_above(fig, panels.flat[0])
     fig.supxlabel(MU, fontsize=11)
     fig.supylabel("half the range of $x$ (dimensionless)", fontsize=11)
     return fig
@@ -70,7 +77,7 @@ def overlay(cases):
     looks = {"many starts": (GREY, ".", 3), "forward sweep": (BLACK, ">", 2.5), "backward sweep": (BLACK, "<", 2.5)}
     for axes, (p, (brute, branches)) in zip(panels, cases.items(), strict=True):
         for name, mu, value, stable in branches:
-            draw_branch(axes, mu, value, stable, color=colour_of(name), label=name)
+            draw_branch(axes, mu, value, stable, color=colour_of(name), label=label_of(name))
         for name, (mu, x) in brute.items():
             colour, marker, size = looks[name]
             look = {"marker": marker, "color": colour, "markersize": size, "markeredgewidth": 0, "zorder": 3}
@@ -82,7 +89,7 @@ def overlay(cases):
     low, high = (f([f(mu) for mu, _ in brute.values()]) for f in (np.min, np.max))
     for axes in panels[-columns:]:
         axes.set(xlabel=MU, xlim=(low, high))
-    _legend(fig, panels[0])
+    legend_above(fig, panels[0])
     return fig
 
 
@@ -93,54 +100,15 @@ def loci(curves, p, mu_c, p_touch, tangency, mu_last=0.3):
     axes = fig.subplots()
     for name, where, mu, *_ in curves:
         colour, dash = LOCUS_LOOK[name]
-        axes.plot(where, mu, color=colour, linestyle=dash, label=name)
+        axes.plot(where, mu, color=colour, linestyle=dash, label=label_of(name))
     axes.plot(p, mu_c, color=BLACK, linewidth=1.6, label=r"$\mu_c$, Eq. 13")
     axes.plot(p_touch, tangency, "x", color=BLACK, markeredgewidth=1.6, label="homoclinic tangency")
     axes.set(xlabel="damping exponent $p$", ylabel=MU, xlim=(0, p[-1]), ylim=(0, mu_last))
-    _legend(fig, axes)
+    legend_above(fig, axes)
     return fig
 
 
-@styled
-def responses(panels, omega_range, amplitude_last=0.75):
-    """In-well amplitude against omega, a panel for each mu: dict mu -> dict p -> (branches, marks)."""
-    fig = PageFigure(figsize=(7.4, 4.0))
-    for axes, (mu, cases) in zip(fig.subplots(1, len(panels), sharey=True), panels.items(), strict=True):
-        _response(axes, cases)
-        axes.set_title(rf"$\mu = {mu:g}$", fontsize=10)
-        axes.set(xlabel=OMEGA, xlim=omega_range, ylim=(0, amplitude_last))
-        axes.xaxis.label.set_size(9.5)
-    fig.axes[0].set_ylabel("half the range of $x$ (dimensionless)")
-    _legend(fig, fig.axes[0])
-    return fig
-
-
-@styled
-def large_orbit(mu, cases, thresholds, omega_range):
-    """Large orbits: amplitude against omega, dict p -> (branches, marks), and the least mu, p -> (omega, mu, ...)."""
-    fig = PageFigure(figsize=(7.4, 4.0))
-    left, right = fig.subplots(1, 2)
-    _response(left, cases)
-    left.set_title(rf"$\mu = {mu:g}$", fontsize=10)
-    left.set(xlabel=OMEGA, ylabel="half the range of $x$ (dimensionless)", xlim=omega_range)
-    for p, (omega, least, *_) in thresholds.items():
-        right.plot(omega, least, **line_of(p))
-    right.set(xlabel=OMEGA, ylabel=r"least $\mu$ (dimensionless)", xlim=omega_range, ylim=(0, 0.4))
-    for axes in (left, right):
-        axes.xaxis.label.set_size(9.5)
-    _legend(fig, right)
-    return fig
-
-
-def _response(axes, cases):
-    for p, (branches, marks) in cases.items():
-        look = line_of(p)
-        for _, omega, value, stable in branches:
-            draw_branch(axes, omega, value, stable, color=look["color"], label=look["label"])
-        draw_marks(axes, marks)
-
-
-def _legend(fig, axes):
+def legend_above(fig, axes):
     """Above the panels, each label once, by the first thing drawn under it: of a branch, the thick line."""
     labels = {}
     for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):

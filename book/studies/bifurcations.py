@@ -8,6 +8,7 @@ import numpy as np
 from duffing import paper
 from duffing.errors import ConvergenceError
 from duffing.flow import integrate
+from duffing.melnikov import critical_amplitude
 from duffing.orbits.bifurcations import (
     FLIP,
     FOLD,
@@ -19,7 +20,15 @@ from duffing.orbits.bifurcations import (
 )
 from duffing.orbits.continuation import BOUND
 from duffing.orbits.diagram import bifurcation_diagram
-from duffing.orbits.followed import DRAWING, AnnotatedBranch, at_exponent, orbits_at
+from duffing.orbits.followed import (
+    DRAWING,
+    AnnotatedBranch,
+    at_exponent,
+    curves,
+    marks,
+    orbits_at,
+    stroboscopic,
+)
 from duffing.orbits.periodic import cycle, periodic_orbits
 
 from ..remember import remembered
@@ -110,6 +119,27 @@ def _both_ways(seeds, p):
     )
     on_them = bifurcations(found)
     return tuple(AnnotatedBranch(name, one, tuple(b)) for name, one, b in zip(names, found, on_them, strict=True))
+
+
+def panels(found, p=EXPONENTS):
+    """What `figures.branch_panels` draws of followed branches: dict p -> (curves, marks, mu_c)."""
+    chosen = {one: at_exponent(found, one) for one in p}
+    mu_c = {one: float(critical_amplitude(replace(paper.OSCILLATOR, p=one))) for one in p}
+    return {one: (curves(chosen[one]), marks(chosen[one]), mu_c[one]) for one in p}
+
+
+def overlays(found, p=EXPONENTS):
+    """What `figures.overlay` draws: dict p -> (`brute_force`, stroboscopic curves of the followed branches)."""
+    return {one: (brute_force(one), curves(at_exponent(found, one), stroboscopic)) for one in p}
+
+
+def falls(loci, low=0.1, high=2.0):
+    """Relative fall of mu from p = low to high on each Locus: dict name -> list of falls, in the order of mu at low."""
+    result = {}
+    for one in sorted(loci, key=lambda one: np.interp(low, one.p, one.mu)):
+        first, last = np.interp((low, high), one.p, one.mu)
+        result.setdefault(one.name, []).append(float(1 - last / first))
+    return result
 
 
 class Locus(NamedTuple):

@@ -83,6 +83,18 @@ def cascade(alpha, omega, p, doublings=2):
     return Cascade(fold, np.array(flips), np.array([one.state for one in now]).T)
 
 
+def ratios_over_alpha(alpha, omega=1.0, exponents=(0.1, 1.0)):
+    """mu_A / mu_c against alpha: dict p -> (alpha, ratio (n,))."""
+    mu_c = {p: critical_amplitude(Duffing(np.array(alpha), p, 0.0, omega)) for p in exponents}
+    return {p: (alpha, cascade(alpha, omega, p).accumulation / mu_c[p]) for p in exponents}
+
+
+def ratios_over_omega(omega, alpha=0.1):
+    """mu_A / mu_c against omega; omega : dict p -> (n,). Returns dict p -> (omega, ratio (n,))."""
+    mu_c = {p: critical_amplitude(Duffing(alpha, p, 0.0, np.array(one))) for p, one in omega.items()}
+    return {p: (one, cascade(alpha, one, p).accumulation / mu_c[p]) for p, one in omega.items()}
+
+
 class Swept(NamedTuple):
     """Chaos in the well carried upwards in mu: mu (k, n); exponent (k, n) of each step, nan once it is captured;
     end (n,) : the last forcing at which it was not, nan where it lasts to the end of the sweep."""

@@ -1,4 +1,4 @@
-"""What the chapter on the contradiction compares between exponents p: at equal forcing, at equal multiples of mu_c, and
+"""What the chapter on the exponents compares between exponents p: at equal forcing, at equal multiples of mu_c, and
 at equal energy taken by the damping."""
 
 from dataclasses import replace
@@ -43,6 +43,14 @@ def compared(p, mu=None, columns=None, rows=None, periods=240, osc=paper.OSCILLA
     starts = starts_between_wells(columns or GRID[p][0], rows or GRID[p][1])
     ratio = mu / critical_amplitude(replace(osc, p=p))
     return mu, ratio, Wandering(*wandering(family, starts, periods, **sweep, **integrator(p)))
+
+
+def curves(found):
+    """What `figures.exponents_compared` draws of dict p -> (mu, mu / mu_c, Wandering) as `compared` gives them."""
+    return {
+        p: (mu, ratio, w.dissipated, w.spread, w.exponent, w.error, w.share > 0.5)
+        for p, (mu, ratio, w) in found.items()
+    }
 
 
 @remembered

@@ -10,7 +10,7 @@ from duffing import checks, paper
 from duffing.errors import ConvergenceError
 from duffing.orbits.bifurcations import FOLD, bifurcation_curves, bifurcations, orbit_branches
 from duffing.orbits.continuation import BOUND
-from duffing.orbits.followed import AnnotatedBranch, at_exponent, curves, speed
+from duffing.orbits.followed import AnnotatedBranch, at_exponent, curves, marks, speed
 
 from ..remember import remembered
 from .bifurcations import IN_WELL, LARGE, joined, settled
@@ -48,6 +48,11 @@ def large_response(mu, p=EXPONENTS, low=0.5, high=2.2):
     middle = replace(paper.OSCILLATOR, p=np.tile(p, 2), mu=mu, omega=1.0)
     start = settled(middle, (1.0, 1.4))
     return _in_frequency(LARGE, middle, start, 1, np.repeat([1.0, -1.0], p.size), (low, high), points=100)
+
+
+def panel(found, p=EXPONENTS):
+    """What a panel of `figures.responses` draws of followed branches: dict p -> (curves, marks)."""
+    return {one: (curves(at_exponent(found, one)), marks(at_exponent(found, one))) for one in p}
 
 
 def _in_frequency(name, osc, guess, halves, direction, bounds, **steps):

@@ -1,4 +1,4 @@
-"""What the chapter on the contradiction computes about transients and about the two ends of the window of chaos."""
+"""What the chapters on transients and on the window of chaos compute: lifetimes, the fold and the crisis."""
 
 from dataclasses import replace
 from typing import NamedTuple

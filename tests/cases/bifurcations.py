@@ -1,4 +1,4 @@
-"""Cases of the figures of bifurcations and resonances, as in `case`.
+"""Cases of the figures of bifurcations, as in `case`.
 
 The points of a branch depend on the last bits of every step before; what is compared is the curve, at equal steps of
 its length, to the width of a line. Located bifurcations do not depend on them.
@@ -8,7 +8,6 @@ import numpy as np
 
 from book.figures import bifurcations as figures
 from book.studies import bifurcations as study
-from book.studies import resonance
 from duffing import Duffing, critical_amplitude, homoclinic_tangency
 from duffing.orbits.followed import amplitude, at_exponent, curves, marks, stroboscopic
 
@@ -94,36 +93,6 @@ def _draw_loci(data):
     return figures.loci(lines, data["p"], data["mu_c"], data["p touched"], data["tangency"])
 
 
-def _responses():
-    data = {}
-    for p in P:
-        chosen = at_exponent(resonance.response(0.12), p)
-        data |= packed(chosen, amplitude, (study.IN_WELL,), f"{p:g}")
-        data[f"marks {p:g}"] = packed_marks(chosen)
-    return data
-
-
-def _draw_responses(data):
-    cases = {p: (unpacked(data, f"{p:g}"), unpacked_marks(data[f"marks {p:g}"])) for p in P}
-    return figures.responses({0.12: cases, 0.03: {}}, omega_range=(0.5, 2.2))
-
-
-def _large():
-    data = {}
-    for p in P:
-        chosen = at_exponent(resonance.large_response(0.3), p)
-        data |= packed(chosen, amplitude, (study.LARGE,), f"{p:g}")
-        least = resonance.least_forcing()[p]
-        data[f"least|{p:g}"] = resampled(least.omega, least.mu, np.zeros(least.mu.size))
-    return data
-
-
-def _draw_large(data):
-    cases = {p: (unpacked(data, f"{p:g}"), []) for p in P}
-    least = {p: data[f"least|{p:g}"][:2] for p in P}
-    return figures.large_orbit(0.3, cases, least, omega_range=(0.5, 2.2))
-
-
 def _in_well():
     return {"distance": np.arange(5) * 1e-4, "exponent": np.array([0.01, 0.02, -0.01, 0.03, np.nan])}
 
@@ -141,8 +110,6 @@ CASES = {
     "branches": Case(_branches, _draw_branches, near_curves),
     "overlay": Case(_overlay, _draw_overlay, near_curves),
     "loci": Case(_loci, _draw_loci, near_curves),
-    "response": Case(_responses, _draw_responses, near_curves),
-    "large_response": Case(_large, _draw_large, near_curves),
     "in_well": Case(
         _in_well,
         lambda d: figures.in_well_chaos({0.1: (d["distance"], d["exponent"]), 1.0: (d["distance"], 2 * d["exponent"])}),
