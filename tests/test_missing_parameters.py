@@ -211,6 +211,18 @@ def test_motions_of_the_likely_pairs_run_to_1500_units_of_the_frequency():
     assert likely_pairs.portrait(B, 0.27, early=False)[0] is None
 
 
+def test_a_part_of_a_plane_is_the_plane_of_its_frequencies(lattice):
+    omegas = lattice.omega[1::2]
+    part, near = study.part(lattice, omegas), np.isin(lattice.evidence.omega, omegas)
+    np.testing.assert_array_equal(part.omega, omegas)
+    np.testing.assert_array_equal(part.ceiling, lattice.ceiling[:, 1::2])
+    assert 0 < near.sum() < near.size
+    np.testing.assert_array_equal(marginal(part.evidence), marginal(lattice.evidence)[near])
+    laid = study.laid_out(part, part.evidence.omega)  # each value is in the column of its own frequency
+    np.testing.assert_array_equal(laid[np.isfinite(laid)], np.broadcast_to(part.omega, laid.shape)[np.isfinite(laid)])
+    np.testing.assert_array_equal(part.ceiling[tuple(part.kept)] > -np.inf, True)
+
+
 def test_what_cannot_be_followed_is_named():
     with pytest.raises(ValueError, match=r"^alphas = \(0.1, 0.1\), omegas = \(0.5, 0.5\): no candidate"):
         study.plane(alphas=(0.1, 0.1), omegas=(0.5, 0.5))

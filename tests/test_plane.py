@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from book.studies import plane
+from book.studies import plane, plane_maps
 from duffing import ConvergenceError, critical_amplitude, lyapunov_spectrum
 from duffing.oscillator import Duffing
 
@@ -98,3 +98,8 @@ def test_agreement_counts_cells_between_lines():
     shares = np.array([[1, 0], [1, 0], [0, 1], [1, 1], [1, 0], [0, 1]])
     inside, filled = plane.agreement(x, mu, shares, x, found)
     assert (inside, filled) == (pytest.approx(5 / 7), pytest.approx(3 / 4))
+
+
+def test_neighbours_are_a_pair_and_the_eight_around_it():
+    found = {tuple(pair) for pair in plane_maps.neighbours(0.1, 1.0).T.tolist()}
+    assert found == {(a, w) for a in (0.099, 0.1, 0.101) for w in (0.99, 1.0, 1.01)}

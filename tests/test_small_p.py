@@ -63,3 +63,10 @@ def test_step_study_holds_every_method_at_every_step():
     study = small_p.step_study((0.2,), factors=(1, 2))
     assert set(study) == {(method, factor) for method in ("tangent", 1e-4, 1e-8) for factor in (1, 2)}
     assert study["tangent", 1][0] != study["tangent", 2][0]
+
+
+def test_the_range_of_chaos_counts_forcings_and_the_exceptions_among_them():
+    part = np.array([0.0, 0.25, 1.0, 0.5, 0.75, 0.0])  # of four starts, at six forcings
+    exponents = np.where(np.arange(4)[:, None] < 4 * part, 0.1, -0.1)
+    found = small_p.chaotic_range(np.arange(6.0), exponents)
+    assert found == (1.0, 4.0, 2.0, 4.0, 2, 1, 0.5)

@@ -36,8 +36,8 @@ def basin_pictures(cases, names, columns=3):
         axes.grid(False)
     for axes in panels.flat[len(cases) :]:
         axes.set_axis_off()
-    fig.supxlabel("displacement $x$ at the start (dimensionless)", fontsize=10.5)
-    fig.supylabel("velocity $v$ at the start (dimensionless)", fontsize=10.5)
+    fig.supxlabel("initial displacement $x$ (dimensionless)", fontsize=10.5)
+    fig.supylabel("initial velocity $v$ (dimensionless)", fontsize=10.5)
     handles = _squares(panels[0, 0], {names[kind]: KIND_COLOURS[kind] for kind in sorted(seen)})
     if any(curves for *_, curves in cases):
         handles += panels[0, 0].plot([], [], color=BLACK, linewidth=0.9, label="$W^S$")
@@ -49,7 +49,7 @@ def basin_pictures(cases, names, columns=3):
 def fate_section(mu, x, fates, names, marked):
     """Fates (len(x), len(mu)) of starts at v = 0 against the forcing; marked : forcings drawn as dashed lines."""
     fig, axes = panel(
-        r"forcing amplitude $\mu$ (dimensionless)", "start $x$, at $v = 0$ (dimensionless)", figsize=(6.8, 3.8)
+        r"forcing amplitude $\mu$ (dimensionless)", "initial displacement $x$, at $v = 0$", figsize=(6.8, 3.8)
     )
     _image(axes, mu, x, fates, FATE_COLOURS)
     for value in marked:
@@ -63,7 +63,7 @@ def fate_section(mu, x, fates, names, marked):
 @styled
 def uncertain_part(curves):
     """The part of the line that is uncertain against the distance: list of (label, eps (n,), part (n,)), log-log."""
-    fig, axes = panel(r"distance $\epsilon$ (part of the line)", "part of the line nearer than that")
+    fig, axes = panel(r"distance $\epsilon$ (in lengths of the line)", r"uncertain fraction $f(\epsilon)$")
     colours = (BLACK, BLUE, GREEN, ORANGE, VERMILION, PURPLE)
     for (label, eps, part), colour, marker in zip(curves, colours, (*MARKERS, "P"), strict=False):
         axes.loglog(eps, part, color=colour, marker=marker, markersize=4, label=label)
@@ -86,10 +86,10 @@ def boundary_dimension(lines, random, contact, near=(0.985, 1.025)):
             axes.errorbar(ratio, value, error, label=f"$p = {p:g}$, on a line", **look)
         for p, (ratio, value, error) in random.items():
             look = {"color": P_COLOUR.get(p, GREY), "marker": "o", "markersize": 9, "fillstyle": "none"}
-            axes.errorbar(ratio, value, error, label=f"$p = {p:g}$, random starts", linestyle="none", **look)
+            axes.errorbar(ratio, value, error, label=f"$p = {p:g}$, random points", linestyle="none", **look)
         axes.set(xlim=part, ylim=(0.9, 2.0))
     panels[0].set_ylabel("dimension $D$ of the boundary")
-    fig.supxlabel(r"forcing over the critical amplitude, $\mu/\mu_c$", fontsize=11)
+    fig.supxlabel(r"forcing amplitude over the critical one, $\mu/\mu_c$", fontsize=11)
     panels[1].legend(loc="lower right")
     return fig
 

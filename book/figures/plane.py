@@ -38,7 +38,7 @@ def regions(panels, adopted):
         axes.xaxis.label.set_size(9.5)
     for axes in every[:, 0]:
         axes.set_ylabel(FORCING)
-    fig.colorbar(image, ax=every.ravel().tolist(), shrink=0.5, label="share of initial conditions in lasting chaos")
+    fig.colorbar(image, ax=every.ravel().tolist(), shrink=0.5, label="fraction of initial conditions in lasting chaos")
     fig.legend(*every.flat[0].get_legend_handles_labels(), loc="outside upper center", ncols=2, fontsize=9)
     return fig
 
@@ -86,6 +86,6 @@ def pairs(found):
         axes.set(ylim=(-0.06, 2.3), yticks=(0, 1, 1.2, 2.2), yticklabels=("0", "1", "0", "1"))
         axes.tick_params(axis="y", labelsize=7)
     panels[-1].set_xlabel(FORCING)
-    fig.supylabel("share of initial conditions", fontsize=9.5)
+    fig.supylabel("fraction of initial conditions", fontsize=9.5)
     fig.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return fig

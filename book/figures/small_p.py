@@ -25,7 +25,7 @@ def many_starts(mu, exponents, mu_paper, paper_exponents):
     """lambda_1 of many starts at each mu as dots: exponents (starts, len(mu)); the paper's start and step as a line."""
     fig, axes = panel(r"forcing amplitude $\mu$ (dimensionless)", r"$\lambda_1$ (per unit time)", figsize=(6.8, 4.2))
     axes.axhline(0, color=GREY, linewidth=0.8)
-    axes.plot(mu_paper, paper_exponents, color=GREY, linewidth=1.2, label="the paper's start and algorithm")
+    axes.plot(mu_paper, paper_exponents, color=GREY, linewidth=1.2, label="the paper's initial condition and algorithm")
     dots = np.broadcast_to(mu, exponents.shape)
     axes.plot(
         dots.ravel(),
@@ -34,7 +34,7 @@ def many_starts(mu, exponents, mu_paper, paper_exponents):
         color=P_COLOUR[0.1],
         alpha=0.45,
         markersize=5,
-        label="friction time, each start",
+        label="friction time, each initial condition",
     )
     axes.set_xlim(mu[0], mu[-1])
     fig.legend(loc="outside upper right", ncols=2)
