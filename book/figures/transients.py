@@ -13,7 +13,7 @@ def survival_curves(curves, sample):
     curves : dict label -> (n, share, since, mean), the law drawn from `since` on with the mean lifetime `mean`
     sample : periods after which the motion of Fig. 5b had settled, drawn as a line
     """
-    fig, axes = panel("time $n$ (forcing periods)", "share of starts still wandering", figsize=(6.8, 4.2))
+    fig, axes = panel("time $n$ (forcing periods)", "fraction still wandering", figsize=(6.8, 4.2))
     looks = zip((VERMILION, ORANGE, BLUE, GREEN), ("-", "--", "-.", ":"), strict=True)
     for (label, (n, share, since, mean)), (colour, dash) in zip(curves.items(), looks, strict=False):
         axes.step(n, share, where="post", color=colour, linestyle=dash, label=label)
