@@ -1,4 +1,4 @@
-# make book | test | check | check-book | proof | lab | pdf | archive | maps | bench | lint | clean,
+# make book | test | check | check-book | proof | proof-first | lab | pdf | archive | maps | bench | lint | clean,
 # and for the maintainer: make reproducible | mutants | elsewhere | slow | record | environment | baselines
 # Each makes the environment .venv from environment.txt when it is missing or stale; nothing is installed elsewhere.
 # The same without make: the README's plain commands.
@@ -35,7 +35,7 @@ ifeq ($(origin PYTHON),command line)
 $(shell [ "$$($(BIN)/python -V 2>&1)" = "$$($(PYTHON) -V 2>&1)" ] || rm -f $(READY) .venv/installed)
 endif
 
-.PHONY: book test check slow check-book proof lab bench record maps reproducible mutants elsewhere pdf archive lint clean \
+.PHONY: book test check slow check-book proof proof-first lab bench record maps reproducible mutants elsewhere pdf archive lint clean \
     environment baselines
 
 book: $(READY)
@@ -55,6 +55,10 @@ slow: $(READY)
 # The theorem, proved by ball arithmetic.
 proof: $(READY)
 	$(BIN)/python -m proof
+
+# That no smaller forcing has a tangency: some minutes more.
+proof-first: $(READY)
+	$(BIN)/python -m proof --first 1
 
 lab: $(READY)
 	$(BIN)/python -m jupyter lab --notebook-dir=. --LabApp.default_url=/lab/tree/chapters/index.md $(LAB_OPTIONS)
@@ -107,9 +111,9 @@ clean:
 	rm -rf _build build *.egg-info .pytest_cache .ruff_cache .hypothesis
 	find . \( -name .venv -o -name .venv-bench \) -prune -o -name __pycache__ -prune -exec rm -rf {} +
 
-# The reference data and images of the figures, after a change that is meant to alter them.
+# The reference data and images of the figures, after a change that is meant to alter them; CASE=name for one of them.
 baselines: $(READY)
-	$(BIN)/python -m pytest tests/test_figures.py --regenerate
+	$(BIN)/python -m pytest tests/test_figures.py --regenerate $(if $(CASE),-k $(CASE))
 
 # Pins every package anew from pyproject.toml, keeping the present versions where they still fit (delete environment.txt
 # first to update all). The maintainer's own target, and the only one that needs uv: it resolves for all systems at once.

@@ -14,6 +14,7 @@ BAD = {
     "osc": [0.5, math.inf, [1.0], Duffing(delta=1.0).shape, *NOTHING],
     "state": [1.0, [], (1.0, 2.0, 3.0), np.zeros((3, 2)), (math.inf, 0.0), *NOTHING],
     "t": NUMBERS,
+    "on_failure": [0, "ignore", np.array(["nan", "raise"]), *NOTHING],
     "periods": [0, *COUNTS],
     "k": [0, 3, *COUNTS],
     "steps_per_period": [0, *COUNTS],

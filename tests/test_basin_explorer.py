@@ -1,4 +1,4 @@
-"""The data of "Drag a start" are the package's basins, letter by letter."""
+"""The data of the basin explorer are the package's basins, letter by letter."""
 
 import re
 from dataclasses import replace

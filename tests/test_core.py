@@ -11,7 +11,7 @@ CORE = [*sorted((ROOT / "duffing").glob("*.py")), *sorted((ROOT / "duffing" / "i
 FIGURES = ("1a", "1b", "3a", "3b", "4a", "4b", "5a", "5b", "6a", "6b")
 # No physics: vectors, memory and a cache for numba. (Nor has `paper`, which is numbers and sentences.)
 MACHINERY = ("compiled", "memory", "processors", "vectors")
-MOST_OF_THE_CORE, MOST = 1550, 7000  # lines; without machinery and `paper`, and all of the package
+MOST_OF_THE_CORE, MOST_OF_THE_MACHINERY, MOST = 1650, 600, 7100
 
 # A process in which nothing of the project can be imported but the core, the study of the paper's figures and what
 # draws them: then each figure's data against the baseline, as `test_figures` compares them.
@@ -76,5 +76,6 @@ def lines(paths):
 
 
 def test_the_core_and_the_package_are_small():
-    assert lines(path for path in CORE if path.stem not in (*MACHINERY, "paper")) <= MOST_OF_THE_CORE
+    assert lines(path for path in CORE if path.stem not in MACHINERY) <= MOST_OF_THE_CORE
+    assert lines(path for path in CORE if path.stem in MACHINERY) <= MOST_OF_THE_MACHINERY
     assert lines((ROOT / "duffing").rglob("*.py")) <= MOST

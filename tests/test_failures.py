@@ -6,7 +6,18 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from duffing import DivergedError, Duffing, lyapunov_spectrum, poincare_section, trajectory
+from duffing import (
+    ConvergenceError,
+    DivergedError,
+    Duffing,
+    NoSaddleOrbitError,
+    homoclinic_tangency,
+    lyapunov_spectrum,
+    poincare_section,
+    saddle_orbit,
+    splitting,
+    trajectory,
+)
 
 # With gamma < 0 the force pushes away from x = 0 without end: such members diverge.
 GAMMA = np.array([1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
@@ -82,3 +93,86 @@ def test_sweeps_in_blocks_with_executors_and_checkpoints_keep_what_is_good(run, 
 def test_an_unknown_policy_is_refused_by_name(call, bad):
     with pytest.raises(ValueError, match=r"^on_failure = "):
         call(family(np.ones(2)), on_failure=bad)
+
+
+PHASES = np.array([0.5, 1.5])
+# Families in which the second member alone has no answer, and why.
+MANIFOLDS = {
+    "saddle_orbit": (
+        lambda osc, **options: np.stack(saddle_orbit(osc, **options)),
+        Duffing(alpha=0.1, p=0.2, mu=[0.12, 0.001, 0.13]),
+        NoSaddleOrbitError,
+        "it sticks",
+    ),
+    "splitting": (
+        lambda osc, **options: splitting(osc, PHASES, method="manifolds", **options),
+        Duffing(alpha=0.1, p=[1.0, 0.5, 2.0], mu=[0.1, 0.0, 0.2]),
+        NoSaddleOrbitError,
+        "at rest at mu = 0",
+    ),
+    "splitting by the threshold": (
+        lambda osc, **options: splitting(osc, PHASES, **options),
+        Duffing(alpha=0.1, p=0.1, mu=[0.15, 0.05, 0.14]),
+        NoSaddleOrbitError,
+        "interval of positions is caught",
+    ),
+    "homoclinic_tangency": (
+        lambda osc, **options: homoclinic_tangency(osc, **options),
+        Duffing(alpha=[0.1, 1e-9, 0.2], delta=[-1.0, -1.0, -2.0]),
+        ConvergenceError,
+        "too small for doubles",
+    ),
+}
+each_manifold = pytest.mark.parametrize(("call", "osc", "kind", "reason"), MANIFOLDS.values(), ids=MANIFOLDS)
+
+
+@each_manifold
+def test_a_member_without_an_answer_of_the_manifolds_is_nan_on_request_and_an_error_by_default(call, osc, kind, reason):
+    with pytest.raises(kind, match=reason):
+        call(osc)
+    with pytest.warns(
+        RuntimeWarning, match=rf"^1 of 3 members have no answer .* member 1, .*{kind.__name__}.*{reason}"
+    ) as said:
+        result = call(osc, on_failure="nan")
+    assert len(said) == 1
+    assert said[0].filename == __file__
+    np.testing.assert_array_equal(np.isnan(result).reshape(-1, 3).any(axis=0), [False, True, False])
+    assert np.isnan(result[..., 1]).all()
+    np.testing.assert_allclose(result[..., [0, 2]], call(osc.members([0, 2])), rtol=1e-8)
+
+
+@each_manifold
+def test_one_oscillator_without_an_answer_of_the_manifolds_is_nan_in_the_shape_of_an_answer(call, osc, kind, reason):
+    with pytest.warns(RuntimeWarning, match=f"^1 of 1 members have no answer .*{reason}"):
+        result = call(osc.members(1), on_failure="nan")
+    assert np.isnan(result).all()
+    assert result.shape == np.shape(call(osc.members(0)))
+
+
+@each_manifold
+def test_what_is_no_question_about_manifolds_is_refused_under_either_policy(call, osc, kind, reason):
+    for policy in ("raise", "nan"):
+        with pytest.raises(ValueError, match=r"^delta = "):
+            call(osc.members(delta=1.0), on_failure=policy)
+    with pytest.raises(ValueError, match=r"^on_failure = 'ignore': must be one of 'raise', 'nan'"):
+        call(osc, on_failure="ignore")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [lambda **o: splitting(Duffing(mu=0.1), 0.5, **o), lambda **o: homoclinic_tangency(Duffing(alpha=1e-9), **o)],
+)
+def test_an_unknown_method_is_refused_though_nan_is_asked_for(call):
+    with pytest.raises(ValueError, match=r"^method = 'backward'"):
+        call(method="backward", on_failure="nan")
+
+
+@each_call
+def test_a_bad_option_is_refused_though_nan_is_asked_for(call):
+    with pytest.raises(ValueError, match=r"^max_steps = 0"):
+        call(family(np.ones(2)), max_steps=0, on_failure="nan")
+
+
+def test_without_a_tangency_at_alpha_0_the_question_is_refused_though_nan_is_asked_for():
+    with pytest.raises(ValueError, match=r"alpha = .*must be > 0 for a tangency"):
+        homoclinic_tangency(Duffing(alpha=[0.1, 0.0]), on_failure="nan")

@@ -18,19 +18,19 @@ from duffing import Duffing, DuffingError
 OSC = Duffing(alpha=0.1, p=1.0, mu=0.02)
 RUN = {"osc": OSC, "state": (0.4, 0.1)}
 ACCURATE = {"rtol": 1e-8, "atol": 1e-8, "max_steps": 1000, "switch": 0.5, "threads": 1}
-SPECTRUM = {**RUN, "periods": 2, "transient": 0, "k": 1}
+SPECTRUM = {**RUN, "periods": 2, "transient": 0, "k": 1, "on_failure": "raise"}
 # A valid call of every public function; in it one argument after the other is replaced by something that it is not.
 CALLS = {
     "Duffing": {field.name: getattr(OSC, field.name) for field in fields(Duffing)},
     "critical_amplitude": {"osc": OSC},
     "homoclinic_orbit": {"osc": OSC, "t": 0.5, "side": 1},
-    "homoclinic_tangency": {"osc": OSC, "method": "auto"},
+    "homoclinic_tangency": {"osc": OSC, "method": "auto", "on_failure": "raise"},
     "lyapunov_spectrum": {**SPECTRUM, "method": "auto", **ACCURATE},
     "melnikov_function": {"osc": OSC, "t0": 0.5, "side": 1},
-    "poincare_section": {**RUN, "periods": 2, "transient": 0, "phase": 0.0, "method": "auto", **ACCURATE},
-    "saddle_orbit": {"osc": OSC},
-    "splitting": {"osc": OSC, "phase": 0.3, "method": "auto"},
-    "trajectory": {**RUN, "t": [0.0, 1.0], "method": "rk4", "steps_per_period": 50, "threads": 1},
+    "poincare_section": {**RUN, "periods": 2, "transient": 0, "phase": 0.0, "on_failure": "raise", **ACCURATE},
+    "saddle_orbit": {"osc": OSC, "on_failure": "raise"},
+    "splitting": {"osc": OSC, "phase": 0.3, "method": "auto", "on_failure": "raise"},
+    "trajectory": {**RUN, "t": [0.0, 1.0], "method": "rk4", "on_failure": "raise", "threads": 1},
     "two_trajectory_exponent": {**RUN, "periods": 2, "transient": 0, "d0": 1e-8, "steps_per_period": 50},
 }
 SYMBOLIC = Duffing(alpha=sympy.Symbol("a", positive=True))

@@ -101,9 +101,7 @@ STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
 POINT = BAD["state"]
 SOME = [bad for bad in STATES if bad is not None]  # None: a grid of them
 WRONG = BAD | {
-    **{
-        key: POSITIVE for key in ("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least", "step")
-    },
+    **dict.fromkeys(("length", "spacing", "turn", "apart", "radius", "tolerance", "reach", "least", "step"), POSITIVE),
     **{
         key: [0, *COUNTS]
         for key in (

@@ -4,6 +4,7 @@ import pytest
 
 from book.claims import ledger
 from book.claims.dependence import INDEPENDENT, OBSERVED, USED, kind
+from book.claims.text import CLAIMS
 from book.claims.verdicts import (
     CONFIRMED,
     LIMITED,
@@ -31,7 +32,7 @@ EXPECTED = {
 
 
 def test_what_was_used_to_choose_alpha_and_omega_is_said_of_each_claim():
-    keys, statements = {claim.key for claim in paper.CLAIMS}, {s.key for s in paper.STATEMENTS}
+    keys, statements = {claim.key for claim in CLAIMS}, {s.key for s in paper.STATEMENTS}
     assert USED.keys() | INDEPENDENT | OBSERVED <= keys
     assert not USED.keys() & INDEPENDENT
     assert {s for each in USED.values() for s in each} == statements
@@ -53,7 +54,7 @@ def test_the_probability_of_each_used_claim_is_given_for_each_likely_pair():
 
 
 def test_every_claim_has_a_finding_and_every_finding_a_claim():
-    keys = [claim.key for claim in paper.CLAIMS]
+    keys = [claim.key for claim in CLAIMS]
     assert len(set(keys)) == len(keys) > 25
     assert set(keys) == set(ledger.FINDINGS)
 

@@ -42,7 +42,7 @@ def test_thresholds_are_eq_13_and_the_tangencies_that_have_an_answer():
     assert few.tolist() == [0.1, 1.05, 2.0]
     np.testing.assert_allclose(mu_t, critical_amplitude(Duffing(p=few)), rtol=0.025)
     assert maps.thresholds("omega", 0.9, 1.1, points=5, crosses=2)[1][0].size == 2  # at p = 0.1
-    far = Duffing(alpha=1.5, p=0.1)  # too strong a damping for a saddle orbit between the wells
+    far = Duffing(alpha=3.0, p=0.1)  # too strong a damping for a saddle orbit between the wells
     assert maps.thresholds("omega", 0.9, 1.1, points=5, crosses=2, osc=far)[1][0].size == 0
 
 

@@ -67,14 +67,10 @@ def test_the_saddle_orbit_of_the_certificate_is_that_of_the_package(p):
     assert stretch**2 == pytest.approx(orbit.multipliers[0], rel=1e-3)
 
 
-def test_no_forcing_amplitude_up_to_the_last_interval_has_a_primary_intersection():
+def test_no_smaller_forcing_amplitude_has_a_primary_intersection():
     top, pairs = check_first(load("p1"), load("first1"))
-    assert 0.7 * float(load_low()) < top <= load_low()
+    assert top == Fraction(load("p1")["low"])
     assert pairs > 0
-
-
-def load_low():
-    return Fraction(load("p1")["low"])
 
 
 # Certificates that are wrong must be refused, for the reason that they are wrong for.
@@ -230,9 +226,9 @@ def test_the_gap_of_a_pair_agrees_with_another_interval_arithmetic():
     parts, turns = (certificate["above"], certificate["below"]), certificate["above"]["turns"]
     found = 0
     for u, s in [[piece(parts[0][side]) for side in ("unstable", "stable")]] + [
-        [piece(u), piece(s)] for u in parts[1]["unstable"][::40] for s in parts[1]["stable"][::3]
+        [piece(u), piece(s)] for u in parts[1]["unstable"][::20] for s in parts[1]["stable"][::2]
     ]:
-        for k in (turns - 1, turns, turns + 1):
+        for k in range(turns - 4, turns + 2):
             ours = gap(u, s, period(1) * point(k), Fraction(1, 10**6))
             if ours is not None:
                 found += 1

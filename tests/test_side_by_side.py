@@ -3,12 +3,13 @@
 import numpy as np
 
 from book.claims.dependence import USED
+from book.claims.text import CLAIMS
 from book.studies import side_by_side
 from duffing import paper
 
 
 def test_each_row_belongs_to_a_claim_and_has_a_number():
-    keys = {claim.key for claim in paper.CLAIMS}
+    keys = {claim.key for claim in CLAIMS}
     for row in side_by_side.rows():
         assert row.claim in keys
         assert row.same is not None or row.exact is not None

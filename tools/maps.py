@@ -1,6 +1,6 @@
 """The book's pictures from far more numbers than a book may take: `make maps`, or `make maps WHAT="basins window"`.
 
-    planes      lambda_1 over the planes of the chapter "The whole plane", 400 x 400
+    planes      lambda_1 over the planes of the chapter on maps (chapters/maps.md), 400 x 400
     basins      basins of attraction, 512 x 512 starts: seconds a picture at p = 1, about a minute at p = 0.1
     transients  the figures of transients, the window and the exponents compared, from more starts and finer grids
     wedge       the figures of the chapter "Where chaos lasts", on finer grids and for every pair
@@ -144,7 +144,7 @@ def window():
 
 
 def headline():
-    p, touching = np.linspace(0.02, 3.1, 300), np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
+    p, touching = np.linspace(0.02, 3.1, 300), np.array([0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0])
     tangency, onset = homoclinic_tangency(Duffing(p=touching)), reproduction.onsets(paper.P_ONSET)
     figure = index.headline(p, critical_amplitude(Duffing(p=p)), touching, tangency, np.array(paper.P_ONSET), onset)
     write(figure, ROOT / "docs" / "headline.svg")

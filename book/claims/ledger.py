@@ -1,4 +1,4 @@
-"""The ledger: every claim of `paper` set against a computation, with a verdict that the computation decides."""
+"""The ledger: every claim of the paper set against a computation, with a verdict that the computation decides."""
 
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ from . import exponents as findings_exponents
 from . import motion as findings_motion
 from . import theory as findings_theory
 from .dependence import INDEPENDENT, USED, kind
+from .text import CLAIMS, Claim
 from .verdicts import VERDICTS, Finding
 
 FINDINGS = {
@@ -27,7 +28,7 @@ FINDINGS = {
 class Row(NamedTuple):
     """A claim of the paper and what was found."""
 
-    claim: paper.Claim
+    claim: Claim
     finding: Finding
 
 
@@ -36,11 +37,11 @@ def rows(*keys):
 
     Raises ValueError naming a key that no claim has.
     """
-    known = [claim.key for claim in paper.CLAIMS]
+    known = [claim.key for claim in CLAIMS]
     for key in keys:
         if key not in known:
             raise ValueError(f"key = {key!r}: must be one of {', '.join(known)}")
-    return [Row(claim, FINDINGS[claim.key]()) for claim in paper.CLAIMS if not keys or claim.key in keys]
+    return [Row(claim, FINDINGS[claim.key]()) for claim in CLAIMS if not keys or claim.key in keys]
 
 
 def table(*keys):

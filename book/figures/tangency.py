@@ -4,24 +4,49 @@ from itertools import cycle
 
 import numpy as np
 
+from .paper import draw_manifolds
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, PageFigure, line_of, panel, styled
 
 
 @styled
 def collapse(phase, curves, theory):
-    """Scaled splitting against the phase for several alpha (dict alpha -> array) and Melnikov's function."""
-    fig, axes = panel(
-        r"phase $\omega t_0$ of the crossing (radian)", r"splitting $\times\,\partial H^0/\partial x\,/\,\alpha$"
-    )
-    axes.axhline(0, color=GREY, linewidth=0.8)
-    axes.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")
+    """Scaled splitting against the phase for several alpha (dict alpha -> array), and its difference from theory."""
+    fig = PageFigure(figsize=(8.6, 3.8))
+    whole, rest = fig.subplots(1, 2)
+    whole.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")
     looks = zip(
         cycle((ORANGE, GREEN, BLUE, VERMILION)), cycle((":", "-.", "--", (0, (4, 2)), (0, (1, 3)))), strict=False
     )  # 20 in all
     for (alpha, curve), (colour, dash) in zip(curves.items(), looks, strict=False):
-        axes.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\alpha = {alpha:g}$")
-    axes.set_xlim(phase[0], phase[-1])
-    axes.legend()
+        whole.plot(phase, curve, color=colour, linestyle=dash, label=rf"$\alpha = {alpha:g}$")
+        rest.plot(phase, curve - theory, color=colour, linestyle=dash)
+    whole.set_ylabel(r"splitting $\times\,\partial H^0/\partial x\,/\,\alpha$")
+    rest.set_ylabel(r"the same minus $\mathrm{M}(t_0)/\alpha$")
+    for axes in (whole, rest):
+        axes.axhline(0, color=GREY, linewidth=0.8)
+        axes.set(xlabel=r"phase $\omega t_0$ of the crossing (radian)", xlim=(phase[0], phase[-1]))
+    fig.legend(loc="outside upper center", ncols=len(curves) + 1)
+    return fig
+
+
+@styled
+def lobes(loop, cases, touch):
+    """Manifolds of the right loop below, at and above tangency, (title, [W^S], [W^U]) each, and the touch enlarged.
+
+    touch : limits of x and of v about the contact, ((2,), (2,))
+    """
+    fig = PageFigure(figsize=(6.8, 6.4))
+    panels = fig.subplots(2, 2).ravel()
+    enlarged = (f"{cases[1][0]}, enlarged", *cases[1][1:])
+    for axes, (title, stable, unstable) in zip(panels, [*cases, enlarged], strict=True):
+        draw_manifolds(axes, [] if axes is panels[3] else [loop], stable, unstable)  # it would hide the contact
+        axes.set_title(title, fontsize=10)
+        axes.set(xlim=(-0.25, 1.6), ylim=(-0.95, 0.95), xlabel="displacement $x$", ylabel="velocity $v$")
+    (left, right), (low, high) = touch
+    panels[1].plot((left, right, right, left, left), (low, low, high, high, low), color=BLACK, linewidth=0.8)
+    panels[3].set(xlim=touch[0], ylim=touch[1])
+    handles, labels = panels[0].get_legend_handles_labels()
+    fig.legend(handles, labels, loc="outside upper center", ncols=3)
     return fig
 
 

@@ -1,4 +1,4 @@
-"""What the page "Drag a start" shows: basins at a few forcings and the attractors' closed paths, ready for JSON."""
+"""What the basin explorer shows: basins at a few forcings and the attractors' closed paths, ready for JSON."""
 
 from dataclasses import replace
 

@@ -12,11 +12,12 @@ from scipy.optimize import brentq
 from duffing import paper
 from duffing.basins.attractors import find_attractors
 from duffing.basins.basins import basins, changed
-from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
+from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts, neighbourhood
 from duffing.basins.contact import first_contact
 from duffing.basins.fates import classify
 from duffing.basins.uncertainty import dimension, uncertain_starts
 from duffing.errors import ConvergenceError
+from duffing.manifolds.tangency import homoclinic_tangency
 from duffing.melnikov import critical_amplitude
 
 from ..remember import remembered
@@ -26,6 +27,18 @@ FRAME = ((-1.7, 1.7), (-1.5, 1.5))  # x and v of the pictures
 AXIS = ((-1.5, 0.0), (1.5, 0.0))  # the line v = 0 whose crossings with the boundary are counted
 STEPS = 128  # Runge-Kutta steps a period for p >= 1
 SECTION_PERIODS = 120
+PICTURES = (0.9, 1.1, 2.0)  # mu / mu_c of the pictures at p = 1
+RATIOS = {
+    1.0: (0.5, 0.9, 0.99, 0.9995, 1.0005, 1.005, 1.01, 1.02, 1.1, 1.2, 1.5, 2.0),
+    0.5: (0.9, 0.987, 0.994, 0.998, 1.003, 1.01, 1.02, 1.1, 1.2, 1.5),
+    0.1: (0.9, 0.96, 0.98, 1.01, 1.1, 1.5),
+}  # mu / mu_c at which the dimension of the boundary is computed
+MOST = {
+    1.0: (30_000,) * 12,
+    0.5: (10_000,) * 2 + (40_000,) + (10_000,) * 7,  # just below the tangency it takes more
+    0.1: (2000, 3000, 4000, 4000, 4000, 6000),
+}  # starts that are followed at each of them
+RANDOM = {1.0: (0.9, 1.1, 1.2, 2.0), 0.1: (1.1,)}  # and where by random starts
 
 
 def oscillator(p, ratio=None, mu=None):
@@ -42,6 +55,26 @@ def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, **sweep)
     # Starts of a coarser grid than by default: a small attractor that they miss is met by the picture's own starts.
     starts = np.reshape(np.meshgrid(x[:: size // 8], v[:: size // 8]), (2, -1))
     return basins(osc, x, v, find_attractors(osc, starts, periods=120, **options), periods, **sweep, **options)
+
+
+def case(title, found, curves=()):
+    """A panel of `figures.basin_pictures`: the Basins with the points of their periodic attractors, and curves."""
+    points = [one.points for one in found.attractors if one.period]
+    return title, found.x, found.v, found.kinds[found.labels], points, list(curves)
+
+
+def unresolved(found):
+    """The part of the starts of some Basins that nothing has captured, in per cent."""
+    return 100 * float(found.shares[-1])
+
+
+def attractor_rows(attractors):
+    """Cells of a table of periodic attractors: name, half range of x, modulus of the multipliers, axes of the trap."""
+    rows = []
+    for one in attractors:
+        axes = 1 / np.sqrt(np.linalg.eigvalsh(one.region.form))
+        rows.append([one.name, *(f"{each:.3f}" for each in (one.amplitude, np.abs(one.multipliers).max(), *axes))])
+    return rows
 
 
 @remembered
@@ -74,10 +107,47 @@ def line_dimensions(p, ratios, most=30_000):
     return values, errors, np.array([one.left.size for one in found])
 
 
-def below(ratios, most, tangency):
-    """The (ratio, most) whose ratio is less than the tangency; most : as for `line_dimensions`."""
-    pairs = zip(ratios, np.broadcast_to(most, len(ratios)).tolist(), strict=True)
-    return [(ratio, number) for ratio, number in pairs if ratio < tangency]
+def dimension_lines():
+    """D along RATIOS: dict p -> (ratios, values, errors)."""
+    return {p: (ratios, *line_dimensions(p, ratios, MOST[p])[:2]) for p, ratios in RATIOS.items()}
+
+
+def dimension_random():
+    """D by random starts at RANDOM: dict p -> (ratios, values, errors)."""
+    sizes = {p: {} if p == 1 else {"starts": 2**9} for p in RANDOM}
+    return {p: (ratios, *random_dimensions(p, ratios, **sizes[p])) for p, ratios in RANDOM.items()}
+
+
+def with_error(curve, ratio, digits=2):
+    """The D of a (ratios, values, errors) at a ratio and its error, as words."""
+    k = curve[0].index(ratio)
+    return f"{curve[1][k]:.{digits}f} ± {curve[2][k]:.{digits}f}"
+
+
+@remembered
+def tangency_ratio(p):
+    """The first primary homoclinic tangency over mu_c."""
+    osc = oscillator(p, 1.0)
+    return float(homoclinic_tangency(osc) / osc.mu)
+
+
+def below(p):
+    """The Crossings at those of RATIOS that are less than the tangency: a list."""
+    pairs = zip(RATIOS[p], MOST[p], strict=True)
+    return [strips(p, ratio, most) for ratio, most in pairs if ratio < tangency_ratio(p)]
+
+
+def least_gap(exponents=(1.0, 0.5)):
+    """The least distance of two crossings below the tangency, in cells, over some exponents p."""
+    return float(min(np.diff(one.left).min() / one.width for p in exponents for one in below(p)))
+
+
+def uncertain_fraction(p, ratio, steps=2):
+    """f(eps) on AXIS in so many steps a decade, from four cells to a hundredth: Crossings, eps (n,), f (n,)."""
+    found = strips(p, ratio, 30_000)
+    low = np.ceil(steps * np.log10(4 * found.width)) / steps
+    eps = 10.0 ** np.arange(low, -1.9, 1 / steps)
+    return found, eps, neighbourhood(found, eps)
 
 
 def counted_dimension(distance, multiplier):

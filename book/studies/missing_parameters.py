@@ -162,6 +162,20 @@ def laid_out(plane, values):
     return cells
 
 
+def part(plane, omegas):
+    """The candidates of a plane whose omega is one of some values: a Plane, nothing is computed again."""
+    columns = np.flatnonzero(np.isclose(plane.omega[:, None], np.array(omegas)).any(axis=1))
+    inside = np.isin(plane.kept[1], columns)
+    kept = np.array([plane.kept[0][inside], np.searchsorted(columns, plane.kept[1][inside])])
+    found = plane.evidence
+    motions = [Runs(*(field[..., inside] for field in each)) for each in (found.chaotic, found.regular)]
+    curves = {p: Curve(c.mu, c.exponent[..., inside], c.moving[..., inside]) for p, c in found.curves.items()}
+    critical = {p: each[inside] for p, each in found.critical.items()}
+    evidence = Evidence(found.alpha[inside], found.omega[inside], *motions, curves, critical)
+    cells = plane.exponent[:, columns], plane.ceiling[:, columns]
+    return Plane(plane.alpha, plane.omega[columns], *cells, kept, evidence)
+
+
 def neighbourhood(pair, half=(0.0025, 0.00625), size=16, n=8, seed=SEED, **run):
     """The evidence of `size` pairs at random within `half` of the pair's alpha and omega."""
     shift = np.random.default_rng(seed).uniform(-1, 1, (2, checks.count("size", size)))

@@ -43,6 +43,28 @@ def window(columns=8, rows=4, step=0.001, first=0.255, last=0.285, periods=199, 
     return mu, lyapunov_spectrum(family, state, periods, 40, k=1, **CURVES).exponents[0]
 
 
+class ChaoticRange(NamedTuple):
+    """Forcings at which starts are chaotic: first, last with any; half_first, half_last, half_count with more than half
+    of them; gaps, least : between the latter two, how many have not more than half, and the least part of them."""
+
+    first: float
+    last: float
+    half_first: float
+    half_last: float
+    half_count: int
+    gaps: int
+    least: float
+
+
+def chaotic_range(mu, exponents, above=0.05):
+    """The ChaoticRange of the exponents (starts, n) at the forcings mu (n,); above : the least of chaos."""
+    part = (exponents > above).mean(axis=0)
+    any_of, most = mu[part > 0], mu[part > 0.5]
+    between = part[(mu >= most.min()) & (mu <= most.max())]
+    ends = map(float, (any_of.min(), any_of.max(), most.min(), most.max()))
+    return ChaoticRange(*ends, most.size, int(np.sum(between <= 0.5)), float(between.min()))
+
+
 class Chaos(NamedTuple):
     """Chaos at one mu: mean and standard error of lambda_1 over independent runs, the spread (one standard deviation)
     of a single run of the paper's length, and the number of runs."""

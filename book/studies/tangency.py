@@ -7,6 +7,7 @@ import numpy as np
 
 from duffing import checks
 from duffing.flow import integrate
+from duffing.manifolds.curves import stable_manifold, unstable_manifold
 from duffing.manifolds.passage import forward_frame
 from duffing.manifolds.tangency import homoclinic_tangency, splitting
 from duffing.manifolds.threshold import threshold
@@ -27,10 +28,41 @@ class Parting(NamedTuple):
     x_s: float
 
 
+def lobes(osc, amplitudes, length=14.0, spacing=0.004):
+    """Manifolds of the right loop at the phase pi/2 as cases of `figures.lobes`: (title, [W^S], [W^U]) for each mu.
+
+    osc : a single oscillator, its own mu not used; amplitudes : dict of what the title says -> mu
+    spacing : of the points of a curve, small enough for the inset
+    """
+    line, found = critical_amplitude(checks.single(osc)), []
+    for where, mu in amplitudes.items():
+        forced = replace(osc, mu=float(mu))
+        curves = [
+            [follow(forced, length=length, spacing=spacing, phase=np.pi / 2)]
+            for follow in (stable_manifold, unstable_manifold)
+        ]
+        found.append((rf"$\mu = {mu / line:.2f}\,\mu_c$, {where}", *curves))
+    return found
+
+
+def collapsed(alpha, curves, theory):
+    """The curves (n, len(alpha)) of `figures.collapse` by alpha, and the greatest distance of each from the theory.
+
+    Returns dict alpha -> (n,), and (len(alpha),) in per cent of the greatest value of the theory (n,).
+    """
+    distance = np.abs(curves - np.asarray(theory)[:, None]).max(axis=0)
+    return dict(zip(np.asarray(alpha).tolist(), curves.T, strict=True)), 100 * distance / np.max(np.abs(theory))
+
+
+def powers(alpha, correction):
+    """The power of alpha (n,) that each row of the correction (m, n) follows in a fit on logarithmic axes: (m,)."""
+    return np.polyfit(np.log(alpha), np.log(np.abs(correction)).T, 1)[0]
+
+
 @remembered
-def ratios(p=EXPONENTS, alpha=0.1):
-    """mu_t / mu_c at the exponents p, (n,), omega = 1."""
-    osc = Duffing(alpha=alpha, p=np.array(p))
+def ratios(p=EXPONENTS, alpha=0.1, omega=1.0):
+    """mu_t / mu_c at the exponents p, (n,); alpha and omega are numbers or (n,)."""
+    osc = Duffing(alpha=alpha, p=np.array(p), omega=np.array(omega))
     return homoclinic_tangency(osc) / critical_amplitude(osc)
 
 

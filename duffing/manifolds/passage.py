@@ -2,10 +2,10 @@
 
 For p < 1/2 a creep erases the past, and W^S cannot be followed backward. But what it parts can be told forward: an
 orbit that comes down from the outermost point of the right loop passes the saddle orbit and goes over the hump, or it
-falls back into its well. Near the saddle orbit the linearised flow says how far it is from W^S: by a covector, carried
-from later times to earlier ones by products with the forward maps, without an inverse. The growth along W^U then says
-how far from W^S the orbit has started. Of the saddle orbit this needs the expanding direction alone. The other one may
-contract to nothing, as it does where the orbit sticks.
+falls back into its well. The position beside the saddle orbit when the orbit leaves, and the growth along W^U until
+then, say how far from W^S it has started. An orbit of W^S itself has come as near to the saddle orbit by then as it
+would have been driven away, and what it still lacks counts exp(-34) of what it would at the start. Of the saddle orbit
+this needs the expanding direction alone. The other one may contract to nothing, as it does where the orbit sticks.
 """
 
 from typing import NamedTuple
@@ -22,7 +22,7 @@ from .shooting import central_orbit
 _ROUNDS = 12  # forcing periods over which a direction is carried until it is that of W^U
 _LEAST = 0.1  # growth rate along W^U, 1 at the saddle point without damping: below it nothing leaves the hump in time
 _NEAR = 0.3  # distance in x from the saddle orbit: an orbit farther away has left the hump
-_TIME = 14.0  # from the outermost point to the last look at an orbit
+_TIME = 17.0  # from the outermost point to the last look at an orbit
 _TOLERANCE = {"rtol": 1e-12, "atol": 1e-14}
 
 
@@ -33,7 +33,6 @@ class ForwardFrame(NamedTuple):
     t (n, N), states (2, n, N)
     directions (2, n, N) : unit vectors of (x, v) along W^U, x > 0 at phase 0
     growth (n, N) : logarithm of what the flow stretches them by until the next time
-    covectors (2, n, N) : zero along W^S, one on the unit vector along W^U
     """
 
     osc: Duffing
@@ -41,7 +40,6 @@ class ForwardFrame(NamedTuple):
     states: np.ndarray
     directions: np.ndarray
     growth: np.ndarray
-    covectors: np.ndarray
 
 
 def forward_frame(osc):
@@ -64,7 +62,6 @@ def forward_frame(osc):
         f"its neighbours creep, and leave it at a rate below {_LEAST:g}: an interval of positions is caught on the hump"
     )
     _refuse(osc, rate < _LEAST, slow)
-    covectors = _covectors(maps, directions)
     # The orbit's second half mirrors the first: (-x, -v) has the same tangent maps.
     return ForwardFrame(
         unit,
@@ -72,7 +69,6 @@ def forward_frame(osc):
         np.concatenate([states, -states], axis=1),
         np.concatenate([directions, directions], axis=1),
         np.concatenate([growth, growth]),
-        np.concatenate([covectors, covectors], axis=1),
     )
 
 
@@ -82,7 +78,7 @@ def overshoot(frame, x, t, member):
     member : (n,) number of the frame's member that each belongs to
 
     A length along W^U, carried back to the turn by the growth of the linearised flow: continuous, its sign and its zero
-    exact, its size not. Second result (n,): whether the orbit is still near the saddle orbit at the last look.
+    right to exp(-34), its size roughly. Second result (n,): whether an orbit is near the saddle orbit at the last look.
     """
     nodes, step = len(frame.t), (frame.t[1] - frame.t[0])[member]
     first = np.floor(t / step).astype(int) + 1
@@ -90,18 +86,17 @@ def overshoot(frame, x, t, member):
     times = np.concatenate([t[None], looks * step])
     start = np.array([x, np.zeros_like(x)])
     orbit = integrate(frame.osc.members(member), start, times, **_TOLERANCE)
-    away = orbit.states[:, 1:] - frame.states[:, looks % nodes, member]
-    entered = np.logical_or.accumulate(away[0] < _NEAR, axis=0)
-    left = (entered & (np.abs(away[0]) > _NEAR)) | (~entered & (orbit.states[1, 1:] > 0))
+    away = orbit.states[0, 1:] - frame.states[0, looks % nodes, member]
+    entered = np.logical_or.accumulate(away < _NEAR, axis=0)
+    left = (entered & (np.abs(away) > _NEAR)) | (~entered & (orbit.states[1, 1:] > 0))
     left[-1] = True
     who, last = np.arange(x.size), left.argmax(axis=0)
-    now, before = away[:, last, who], away[0, np.maximum(last - 1, 0), who]
-    node, near, side = looks[last, who] % nodes, np.abs(now[0]) <= _NEAR, np.sign(now[0])
+    now, before = away[last, who], away[np.maximum(last - 1, 0), who]
+    node, near, side = looks[last, who] % nodes, np.abs(now) <= _NEAR, np.sign(now)
     # An orbit that has left was at the distance _NEAR some time between two looks.
-    part = np.clip((_NEAR - side * before) / np.where(side * (now[0] - before) > 0, side * (now[0] - before), 1), 0, 1)
+    part = np.clip((_NEAR - side * before) / np.where(side * (now - before) > 0, side * (now - before), 1), 0, 1)
     end = looks[last, who] - np.where(near, 0, 1 - part)
-    across = (frame.covectors[:, node, member] * now).sum(axis=0)
-    across = np.where(near, across, side * _NEAR / np.abs(frame.directions[0, node, member]))
+    across = np.where(near, now, side * _NEAR) / np.abs(frame.directions[0, node, member])
     return -across * np.exp(_grown(frame, t / step, member) - _grown(frame, end, member)), near
 
 
@@ -124,17 +119,6 @@ def _unstable(maps):
             stretch = np.hypot(*vector)
             vector, growth[j] = vector / stretch, np.log(stretch)
     return directions, growth
-
-
-def _covectors(maps, directions):
-    """Covectors (2, m, N) at the nodes of half a period, each the next one times the map between, one along W^U."""
-    covectors, row = np.empty_like(directions), directions[:, 0]
-    for _ in range(2 * _ROUNDS):
-        for j in reversed(range(maps.shape[2])):
-            row = np.einsum("i...,ij...->j...", row, maps[:, :, j])
-            row = row / (row * directions[:, j]).sum(axis=0)
-            covectors[:, j] = row
-    return covectors
 
 
 def _refuse(osc, members, reason):

@@ -62,7 +62,9 @@ def multipliers_of(found):
     area = np.exp(found.log_area)
     root = np.sqrt(mean**2 - area + 0j)
     larger = mean + np.where(mean >= 0, root, -root)
-    return np.array([larger, np.divide(area, larger, out=np.zeros_like(larger), where=larger != 0)])
+    # It is less than the larger one: zero where even that is no normal number any more.
+    known = np.abs(larger) >= np.finfo(float).tiny
+    return np.array([larger, np.divide(area, larger, out=np.zeros_like(larger), where=known)])
 
 
 def periodic_orbit(osc, state, halves=2, **options):

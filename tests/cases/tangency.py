@@ -18,6 +18,17 @@ def _phases():
     }
 
 
+def _lobes():
+    t = np.linspace(-4, 4, 60)
+    loop = np.array([1 / np.cosh(t), -np.tanh(t) / np.cosh(t)])
+    return {"loop": loop, "scale": np.array([0.9, 1.0, 1.1])}
+
+
+def _draw_lobes(d):
+    cases = [(f"{s:g}", [d["loop"] * s], [d["loop"]]) for s in d["scale"]]
+    return figures.lobes(d["loop"], cases, ((0.9, 1.05), (-0.3, 0.3)))
+
+
 def _correction():
     alpha = np.geomspace(0.01, 0.3, 6)
     signed = np.array([alpha, -(alpha**2), alpha - 0.05, 0.1 * alpha])
@@ -65,6 +76,7 @@ CASES = {
         lambda d: figures.collapse(d["phase"], dict(zip((0.4, 0.3, 0.2, 0.1), d["curves"], strict=True)), d["theory"]),
         to_roundoff,
     ),
+    "lobes": Case(_lobes, _draw_lobes, to_roundoff),
     "tangency_correction": Case(
         _correction, lambda d: figures.tangency_correction(d["alpha"], P, d["correction"]), to_roundoff
     ),

@@ -25,8 +25,8 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=None,
     state : (2,) or (2, *family) or (2, N), (x, v) at t[0]
     t : (n,) for all members or (n, N), increasing or decreasing times, met exactly
     tangents : 0, 1 or 2 tangent vectors; growth and propagators are of each interval. The state does not depend on it.
-    max_steps : the most steps from one time to the next; by default it follows from how long that is, see
-        `batches.most_steps`
+    max_steps : the most steps from one time to the next; by default 100 000, and 10 000 more for each period gone: of
+        the forcing, or of the free motion where that is shorter
     switch : relaxation times an explicit step, 0 < switch <= 0.6, above which a creep is followed by implicit steps;
         the cost depends on it, the result does not
     threads : at most so many at once (default: those the process may use); the result is the same to the last bit
@@ -48,7 +48,7 @@ def integrate(osc, state, t, tangents=0, rtol=1e-10, atol=1e-12, max_steps=None,
     tangents = checks.count("tangents", tangents, least=0)
     if tangents > 2:
         raise ValueError(f"tangents = {tangents}: must be 0, 1 or 2")
-    control = tolerances(rtol, atol, switch)
+    control = tolerances(rtol, atol, max_steps, switch)
 
     results, evaluations = integrate_members(columns, state, t, max_steps, T, -math.inf, tangents, control, threads)
     states = np.concatenate([state[:, None], results[[AT_X, AT_V]]], axis=1)

@@ -14,10 +14,12 @@ from .scheduler import AT_T, RESULTS, run_lanes
 from .step_control import DIVERGED, DONE, NO_CROSSING, PAST_UNKNOWN, STUCK, TOO_MANY_STEPS
 
 _MOST = 256  # members of a part at most
-# Steps of an interval where the caller sets no bound. The motion needs ten to some hundred in a period, the linear
-# damping of a large alpha, whose steps follow its relaxation, about 10 alpha. The last ends what never would within
-# half an hour or so.
-_STEPS, _STEPS_OF_A_PERIOD, _MOST_STEPS = 1e5, 1e4, 1e9
+# Where the caller sets no bound, so many steps are allowed in an interval, and so many more for each period gone in it:
+# of the forcing, of the linear spring, or of the cubic one where it balances the forcing amplitude, whichever is the
+# shortest. Time that no longer goes on, where a solution becomes infinite, ends an interval of any length. The motion
+# needs ten to some hundred steps in a period; a large alpha with p = 1, whose relaxation they follow, about 10 alpha.
+# Where the periods of an interval are so many that it could take more than the last, some minutes, each has less.
+_STEPS, _STEPS_OF_A_PERIOD, _MOST_STEPS = 100_000, 10_000, 10**8
 _MOST_P = 1e4  # beyond it steps across |v| = 1, where the damping sets in like a wall, become endless
 _FAILURES = {
     DIVERGED: (DivergedError, "the solution leaves every bound"),
@@ -40,34 +42,30 @@ def members(osc, state, shape):
     return columns, checks.state(state, (size,) if np.shape(state) == (2, size) else shape), size
 
 
-def tolerances(rtol, atol, switch=0.6):
-    """The three numbers that control the steps, checked, in the order that `run_lanes` takes them."""
+def tolerances(rtol, atol, max_steps, switch=0.6):
+    """The four numbers that control the steps, checked, in the order that `run_lanes` takes them."""
     switch = checks.positive("switch", switch)
     if switch > 0.6:
         raise ValueError(f"switch = {switch}: must be a number in (0, 0.6]")
-    return checks.positive("rtol", rtol), checks.positive("atol", atol), switch
+    most = _STEPS if max_steps is None else checks.count("max_steps", max_steps)
+    return checks.positive("rtol", rtol), checks.positive("atol", atol), most, switch
 
 
-def most_steps(max_steps, columns, times):
-    """The most steps (N, n - 1) of each interval of the times (N, n): max_steps, or if it is None what follows from
-    the interval's length.
-
-    That is at least 1e5, and 1e4 for each period of what is fastest: the forcing, the linear spring, or the cubic
-    spring where it balances the forcing amplitude.
-    """
+def _pace(max_steps, columns, times):
+    """By how much the bound on a member's steps grows for each unit of time, (N,): not at all if max_steps is given."""
     if max_steps is not None:
-        return np.full((times.shape[0], times.shape[1] - 1), float(checks.count("max_steps", max_steps)))
+        return np.zeros(columns.shape[1])
     _, _, mu, omega, delta, gamma = np.abs(columns)
     fastest = np.maximum(np.maximum(omega, np.sqrt(delta)), np.cbrt(mu) * gamma ** (1 / 6))
     with np.errstate(over="ignore"):
-        periods = np.abs(np.diff(times, axis=1)) / (2 * np.pi) * fastest[:, None]
-        return np.clip(_STEPS_OF_A_PERIOD * periods, _STEPS, _MOST_STEPS)
+        longest = np.abs(np.diff(times, axis=1)).max(axis=1, initial=1e-290)
+        return np.minimum(_STEPS_OF_A_PERIOD / (2 * np.pi) * fastest, _MOST_STEPS / longest)
 
 
 def integrate_members(columns, states, times, max_steps, event, beyond, tangents, control, threads):
     """Results of `run_lanes` for all members, (9, n - 1, N), and the number of force evaluations (N,).
 
-    columns (6, N), states (2, N), times (N, n); max_steps : of an interval, or None
+    columns (6, N), states (2, N), times (N, n); max_steps : of an interval, or None for the default
     event, beyond, tangents, control : as for `run_lanes`
     threads : at most so many at once (None: the processors that the process may use)
 
@@ -83,13 +81,13 @@ def integrate_members(columns, states, times, max_steps, event, beyond, tangents
     size, intervals = times.shape[0], times.shape[1] - 1
     # One layout in memory, for which the kernel is compiled once.
     rows, starts, times = parameters(columns), np.ascontiguousarray(states.T), np.ascontiguousarray(times)
-    steps = most_steps(max_steps, columns, times)
+    pace = _pace(max_steps, columns, times)
     results = np.zeros((size, intervals, len(RESULTS)))
     status, evaluations = np.full(size, DONE), np.zeros(size, dtype=np.int64)
 
     def run(part):
         out = results[part], status[part], evaluations[part]
-        run_lanes(rows[part], starts[part], times[part], steps[part], event, beyond, tangents, control, *out)
+        run_lanes(rows[part], starts[part], times[part], pace[part], event, beyond, tangents, control, *out)
 
     # Parts long enough that lanes seldom idle at their ends, short enough to balance and to interrupt.
     step = min(max(-(-size // (4 * threads)), min(4 * WIDTH, -(-size // threads))), _MOST) if threads > 1 else _MOST
@@ -100,11 +98,11 @@ def integrate_members(columns, states, times, max_steps, event, beyond, tangents
     else:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(run, parts))
-    _raise_failures(status, columns, times, steps, results, control)
+    _raise_failures(status, columns, times, max_steps, results, control)
     return results.transpose(2, 1, 0), evaluations
 
 
-def _raise_failures(status, columns, times, steps, results, control):
+def _raise_failures(status, columns, times, max_steps, results, control):
     """The named error of the first member that failed."""
     failed = np.flatnonzero(status != DONE)
     if failed.size:
@@ -112,8 +110,9 @@ def _raise_failures(status, columns, times, steps, results, control):
         kind, reason = _FAILURES[status[first]]
         if status[first] == TOO_MANY_STEPS:
             k = np.argmin(results[first, :, AT_T] != 0)  # the first interval that has no results
+            default = f" (by default {_STEPS} and {_STEPS_OF_A_PERIOD} a period)" if max_steps is None else ""
             reason = (
-                f"max_steps = {steps[first, k]:.0f} steps do not reach from t = {times[first, k]:g} to "
+                f"max_steps = {max_steps}{default} is too few steps from t = {times[first, k]:g} to "
                 f"t = {times[first, k + 1]:g}: give a larger max_steps, or a larger rtol (it is {control[0]:g})"
             )
         names = ("alpha", "p", "mu", "omega", "delta", "gamma")

@@ -12,7 +12,7 @@ function opens the parts that it reads and writes by name. What a lane computes 
     LINEAR     2             of the present stage, for the tangents: dt/dsigma dF/dx, and alpha dS/dsigma
     STEP       9             the step, how it went, and what it is limited by
     FRAME      4             the tangents' frame and the passages through zero force since the last target
-    OWNER      5             whose trajectory it is, and where it has to go
+    OWNER      6             whose trajectory it is, and where it has to go
 """
 
 import math
@@ -32,12 +32,13 @@ SPRING, DAMPER = range(2)
 # H: the step in sigma to be tried; MOVE: the one that the tolerance alone allows; CREEP: that of a creep in time, 0 if
 # there is none; NEAR, FAR: bracket of the length of a step that ends on the target, FAR = 0 if there is none; REJECTED:
 # whether the last step was (0 or 1); GAIN: the logarithm by which errors have grown backward on a slow branch; OUTCOME:
-# what befell the lane in its last step; LEFT: the steps that may still be taken to the target.
-H, MOVE, CREEP, NEAR, FAR, REJECTED, GAIN, OUTCOME, LEFT = range(9)
+# what befell the lane in its last step; STEPS: since the last target.
+H, MOVE, CREEP, NEAR, FAR, REJECTED, GAIN, OUTCOME, STEPS = range(9)
 LOG1, LOG2, SHEAR, PASSAGES = range(4)  # log R11, log R22, R12 / R11, passages through zero force
-# TARGET: the time to reach; SIGN: of time; MEMBER: -1 is nobody's; INTERVAL of it; EVALUATIONS: of the force in all.
-TARGET, SIGN, MEMBER, INTERVAL, EVALUATIONS = range(5)
+# TARGET: the time to reach; SIGN: of time; MEMBER: -1 is nobody's; INTERVAL of it; EVALUATIONS: of the force in all;
+# PACE: by how much the bound on the steps grows for each unit of time since the last target.
+TARGET, SIGN, MEMBER, INTERVAL, EVALUATIONS, PACE = range(6)
 
-PARTS = ((8,), (8,), (LAST + 1, 8), (9,), (2,), (9,), (4,), (5,))
+PARTS = ((8,), (8,), (LAST + 1, 8), (9,), (2,), (9,), (4,), (6,))
 BLOCK = WIDTH * sum(map(math.prod, PARTS))
 lanes, eights = views(PARTS, WIDTH)

@@ -13,9 +13,9 @@ from numba import int64
 from ..compiled import announced, compiled, inner
 from ..memory import apart, stack
 from .block import (
-    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LEFT, LOG1, LOG2, MEMBER, MOVE, NEW,
-    NOW, OMEGA, OSC, OUTCOME, OWNER, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, TARGET, WIDTH,
-    XI1, XI2, H, M, N, P, S, T, W, X, lanes,
+    ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LOG1, LOG2, MEMBER, MOVE, NEW, NOW,
+    OMEGA, OSC, OUTCOME, OWNER, PACE, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, STEPS, TARGET,
+    WIDTH, XI1, XI2, H, M, N, P, S, T, W, X, lanes,
 )  # fmt: skip
 from .dop853 import step
 from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
@@ -43,13 +43,13 @@ _CREEP_STEP = 1 / 16  # of a forcing period at most, so that no passage of the f
 
 
 @compiled
-def run_lanes(parameters, states, times, steps, event, beyond, tangents, control, results, status, evaluations):
+def run_lanes(parameters, states, times, pace, event, beyond, tangents, control, results, status, evaluations):
     """Carry each member from states (N, 2) through the times (N, n), status (N,).
 
-    steps : (N, n - 1), the most that are taken in each interval
+    pace : (N,), by how much the bound on an interval's steps grows for each unit of time gone in it
     event : T, or W for the first crossing of v = 0 with x > beyond before the time times[:, 1]
     tangents : 0, 1 or 2 of them
-    control : rtol, atol, relaxation times a step above which a creep begins
+    control : rtol, atol, bound on the steps where an interval begins, relaxation times a step above which a creep does
     results : (N, n - 1, 9), in the order of RESULTS; evaluations : (N,) of the force
     """
     block = stack(BLOCK)
@@ -62,12 +62,10 @@ def run_lanes(parameters, states, times, steps, event, beyond, tangents, control
         while l < used:
             moved = False
             if owner[MEMBER, l] >= 0.0 and outcome[l] != GOING:
-                moved = handle_event(
-                    block, l, times, steps, event, beyond, tangents, control, results, status, evaluations
-                )
+                moved = handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations)
             if owner[MEMBER, l] < 0.0 and waiting < status.size:
-                kind = max(kind, load_member(block, l, waiting, parameters, states))
-                start_interval(block, l, int64(0), times, steps, event)
+                kind = max(kind, load_member(block, l, waiting, parameters, states, pace))
+                start_interval(block, l, int64(0), times, event)
                 waiting, moved = waiting + 1, True
             if owner[MEMBER, l] >= 0.0:
                 if moved:
@@ -88,7 +86,7 @@ announced(run_lanes, "the accurate integrator")
 
 
 @inner
-def load_member(block, l, member, parameters, states):
+def load_member(block, l, member, parameters, states, pace):
     """Member's parameters, start, identity as tangents and a careful first step; returns the lane's kind."""
     apart()
     osc, now, step, owner = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP), lanes(block, OWNER)
@@ -100,12 +98,12 @@ def load_member(block, l, member, parameters, states):
     now[X, l], now[W, l] = x, variable(osc, l, v)
     now[XI1, l], now[ETA1, l], now[XI2, l], now[ETA2, l] = 1.0, 0.0, 0.0, 1.0
     step[MOVE, l], step[CREEP, l] = 0.05 / osc[OMEGA, l], 0.0
-    owner[MEMBER, l], owner[EVALUATIONS, l] = member, 0.0
+    owner[MEMBER, l], owner[EVALUATIONS, l], owner[PACE, l] = member, 0.0, pace[member]
     return TWO_POWERS if osc[N, l] != 1.0 else ONE_POWER if osc[M, l] != 1.0 else SMOOTH
 
 
 @inner
-def start_interval(block, l, interval, times, steps, event):
+def start_interval(block, l, interval, times, event):
     """The next time to reach; what is counted since the last begins anew."""
     apart()
     osc, now, step = lanes(block, OSC), lanes(block, NOW), lanes(block, STEP)
@@ -115,15 +113,14 @@ def start_interval(block, l, interval, times, steps, event):
     owner[INTERVAL, l], osc[START, l], owner[TARGET, l] = interval, before, after - before
     owner[SIGN, l] = 1.0 if after > before else -1.0
     now[S, l] = now[T, l] = frame[LOG1, l] = frame[LOG2, l] = frame[SHEAR, l] = frame[PASSAGES, l] = 0.0
-    step[FAR, l] = step[REJECTED, l] = step[GAIN, l] = step[OUTCOME, l] = 0.0
-    step[LEFT, l] = steps[member, interval]
+    step[FAR, l] = step[REJECTED, l] = step[GAIN, l] = step[STEPS, l] = step[OUTCOME, l] = 0.0
     step[MOVE, l] = owner[SIGN, l] * abs(step[MOVE, l])
     step[H, l] = not_beyond(osc, owner, l, event, 0.0, step[MOVE, l])
     owner[EVALUATIONS, l] += 1.0
 
 
 @inner
-def handle_event(block, l, times, steps, event, beyond, tangents, control, results, status, evaluations):
+def handle_event(block, l, times, event, beyond, tangents, control, results, status, evaluations):
     """Do what the lane's last step asks for, until it is ready for a step again or its trajectory has ended.
 
     Returns whether the lane has left the point at which its slopes are known.
@@ -152,7 +149,7 @@ def handle_event(block, l, times, steps, event, beyond, tangents, control, resul
         if outcome != DONE or interval + 2 == times.shape[1]:
             status[member], evaluations[member], owner[MEMBER, l] = outcome, int(owner[EVALUATIONS, l]), -1.0
             return True
-        start_interval(block, l, interval + 1, times, steps, event)
+        start_interval(block, l, interval + 1, times, event)
         outcome = creep(block, l, event, beyond, tangents, control) if step[CREEP, l] > 0.0 else GOING
     return True
 
@@ -174,14 +171,14 @@ def creep(block, l, event, beyond, tangents, control):
     apart()
     osc, now, new, step = lanes(block, OSC), lanes(block, NOW), lanes(block, NEW), lanes(block, STEP)
     frame, owner = lanes(block, FRAME), lanes(block, OWNER)
-    rtol, atol, switch = control
+    rtol, atol, most_steps, switch = control
     alpha, p, m, n = osc[ALPHA, l], osc[P, l], osc[M, l], osc[N, l]
     Y = powers(osc, l, now[W, l], TWO_POWERS)[1] * now[W, l]
     orthonormalise(block, l, tangents, log_area(block, l, tangents))
-    while step[LEFT, l] > 0.0:
-        step[LEFT, l] -= 1.0
-        ahead = owner[TARGET, l] - now[T, l]
-        h = min(step[CREEP, l], ahead, _CREEP_STEP * 2 * math.pi / osc[OMEGA, l])
+    while step[STEPS, l] < most_steps + owner[PACE, l] * now[T, l]:
+        step[STEPS, l] += 1.0
+        left = owner[TARGET, l] - now[T, l]
+        h = min(step[CREEP, l], left, _CREEP_STEP * 2 * math.pi / osc[OMEGA, l])
         resting = at_rest(osc, l, now[X, l], force(osc, l, now[X, l], now[T, l]), Y)
         end, e, passages, evaluations = radau_step(block, l, Y, h, tangents, rtol, atol)
         owner[EVALUATIONS, l] += evaluations
@@ -202,7 +199,7 @@ def creep(block, l, event, beyond, tangents, control):
             step[CREEP, l] = h * factor if factor < 1 else max(step[CREEP, l], h * factor)  # h may have been cut
         else:
             step[CREEP, l] = h * (max(0.2, 0.9 * e ** (-1 / 6)) if e < 1e300 else 0.2)
-        if h == ahead and e <= 1.0:
+        if h == left and e <= 1.0:
             if event == W:
                 return NO_CROSSING
             now[T, l] = owner[TARGET, l]

@@ -9,8 +9,8 @@ from ..compiled import inlined, inner
 from ..memory import widest_vectors
 from ..vectors import root, where
 from .block import (
-    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, LEFT, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, REJECTED, SIGN, SLOPES,
-    STEP, TARGET, H, M, N, P, S, T, W, X, eights,
+    ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, PACE, REJECTED, SIGN, SLOPES, STEP,
+    STEPS, TARGET, H, M, N, P, S, T, W, X, eights,
 )  # fmt: skip
 from .dop853 import error
 from .equations import SMOOTH, TWO_POWERS, stiffness
@@ -37,7 +37,7 @@ def not_beyond(osc, owner, l, event, t, h):
 @inlined
 def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, control, kind):
     """Accept the steps to NEW or not (REJECTED), choose the next ones, and say what more there is to do (OUTCOME)."""
-    rtol, atol, switch = control
+    rtol, atol, most_steps, switch = control
     h, x, t, rate = step[H, c], new[X, c], new[T, c], slopes[LAST]
     e = error(now, new, slopes, osc, step, c, rtol, atol, kind)
     fits = e <= 1.0
@@ -45,14 +45,15 @@ def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, contro
     relaxation = osc[ALPHA, c] * rate[S, c]  # per sigma
     fastest = root(abs(stiffness(osc, c, x))) * rate[T, c] + relaxation
     factor = 0.9 / root(root(root(e)))
-    most = where(step[REJECTED, c] != 0.0, 1.0, 6.0)
-    grown, fresh = abs(h) * where(factor < most, factor, most), _FRESH / fastest
+    growth = where(step[REJECTED, c] != 0.0, 1.0, 6.0)
+    grown, fresh = abs(h) * where(factor < growth, factor, growth), _FRESH / fastest
     length = where(grown < fresh, grown, fresh)
     length = owner[SIGN, c] * where(fits, length, abs(h) * where(factor > 0.2, factor, 0.2))  # 0.2 if e is no number
-    cut = not_beyond(osc, owner, c, event, where(fits, t, now[T, c]), length)
+    reached = where(fits, t, now[T, c])  # of a step that is not accepted, t may be no number
+    cut = not_beyond(osc, owner, c, event, reached, length)
     step[MOVE, c], step[H, c] = where(arrives, step[MOVE, c], length), where(arrives, h, cut)
     step[REJECTED, c] = where(fits, 0.0, 1.0)
-    step[LEFT, c] = step[LEFT, c] - 1.0
+    step[STEPS, c] = step[STEPS, c] + 1.0
     owner[EVALUATIONS, c] = owner[EVALUATIONS, c] + 12.0
 
     outcome = where((tangents == 2) & collapses(new, c), COLLAPSES, GOING)
@@ -64,7 +65,8 @@ def _accept_lanes(now, new, slopes, osc, step, owner, c, event, tangents, contro
     outcome = where(fits, outcome, GOING)
     # Where a solution blows up the frame may collapse at every step.
     goes_on = (outcome == GOING) | (outcome == COLLAPSES)
-    outcome = where(goes_on & (step[LEFT, c] <= 0.0), TOO_MANY_STEPS, outcome)
+    most = most_steps + owner[PACE, c] * abs(reached)
+    outcome = where(goes_on & (step[STEPS, c] >= most), TOO_MANY_STEPS, outcome)
     step[OUTCOME, c] = where(arrives, ARRIVES, outcome)
 
 

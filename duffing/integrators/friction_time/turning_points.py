@@ -37,7 +37,7 @@ def to_turning_point(
     state : (2,) or (2, *family), for a single oscillator also (2, N): the starts
     t0 : the time of the starts, one for all or (N,) each its own
     within : the longest time to look for it (default: 50 forcing periods)
-    max_steps : the most steps in that time; by default it follows from how long that is, see `batches.most_steps`
+    max_steps : the most steps in that time; its default is that of `adaptive.integrate`
     derivatives : whether to return dt and dx, too. To first order x does not depend on when it is met, since v = 0
         there: dx is the first row of the tangent map, dt minus the second divided by the force.
 
@@ -54,7 +54,7 @@ def to_turning_point(
     t0 = np.broadcast_to(t0.ravel(), size)
     if direction not in (1, -1):
         raise ValueError(f"direction = {direction!r}: must be 1 or -1")
-    control = tolerances(rtol, atol)
+    control = tolerances(rtol, atol, max_steps)
     longest = np.broadcast_to(100 * np.pi / columns[3] if within is None else checks.positive("within", within), size)
 
     times = np.stack([t0, t0 + direction * longest], axis=1)
