@@ -56,7 +56,7 @@ def capture_rates(rates, folds, crises):
     fig = PageFigure(figsize=(6.8, 3.9))
     panels = np.atleast_1d(fig.subplots(1, len(rates), sharey=True))
     for axes, (p, (mu, *both)) in zip(panels, rates.items(), strict=True):
-        looks = ((BLUE, "o", "by the small orbits"), (ORANGE, "s", "by the large orbit"))
+        looks = ((BLUE, "o", "by S"), (ORANGE, "s", "by L"))
         for (rate, error), (colour, marker, label) in zip(both, looks, strict=True):
             seen = rate > 0
             axes.errorbar(
@@ -74,5 +74,5 @@ def _ends(axes, fold, crisis):
     """The fold and the crisis as lines, the window between them shaded where chaos lasts."""
     if fold < crisis:
         axes.axvspan(fold, crisis, color=GREY, alpha=0.2, linewidth=0)
-    axes.axvline(fold, color=BLACK, linestyle="--", linewidth=1.0, label="fold of the small orbits")
+    axes.axvline(fold, color=BLACK, linestyle="--", linewidth=1.0, label="fold of S")
     axes.axvline(crisis, color=BLACK, linestyle=":", linewidth=1.4, label="crisis")
