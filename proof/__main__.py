@@ -23,7 +23,8 @@ WORKERS = 2
 def write(name, certificate):
     """Write a certificate as JSON with one piece a line."""
     text = json.dumps(certificate, separators=(",", ":"))
-    (CERTIFICATES / f"{name}.json").write_text(text.replace("],[", "],\n[").replace(":[[", ":[\n[") + "\n")
+    text = text.replace("],[", "],\n[").replace(":[[", ":[\n[") + "\n"
+    (CERTIFICATES / f"{name}.json").write_text(text, encoding="utf-8")
 
 
 def statement(certificate):

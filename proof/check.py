@@ -22,7 +22,7 @@ CERTIFICATES = Path(__file__).parent / "certificates"
 
 def load(name):
     """A certificate by its name: p1, p3, first1."""
-    return json.loads((CERTIFICATES / f"{name}.json").read_text())
+    return json.loads((CERTIFICATES / f"{name}.json").read_text(encoding="utf-8"))
 
 
 def check(certificate, sample=20, seed=0):

@@ -35,6 +35,16 @@ def test_two_times_far_apart_give_the_state_that_many_between_them_give():
     np.testing.assert_allclose(far, near, atol=1e-7)
 
 
+@pytest.mark.parametrize(
+    "osc", [Duffing(alpha=0.0, omega=1e-9), Duffing(alpha=0.0, mu=8.0, omega=1e-9, delta=0.0, gamma=1.0)]
+)
+def test_free_oscillations_by_the_thousand_within_one_slow_forcing_period_keep_their_energy(osc):
+    """The forcing is all but constant, so that H0 - mu x is the energy; the period is that of the spring."""
+    x, v = trajectory(osc, (1.5, 0.0), [0, 2e4])
+    energy = osc.energy(x, v) - osc.mu * x
+    assert energy[1] == pytest.approx(energy[0], rel=1e-5)
+
+
 def test_a_long_search_for_a_turning_point_ends_in_its_time_not_by_its_steps():
     with pytest.raises(ConvergenceError, match="no turning point was found in time"):
         to_turning_point(Duffing(alpha=0.0), (-0.5, 0.2), 0.0, beyond=0.3, within=3e4)

@@ -72,8 +72,9 @@ def overlay(cases):
     """Stroboscopic x against mu, a panel for each p: dict p -> (brute, branches), brute a dict name -> (mu, x) (n,)."""
     columns = 1 if len(cases) <= 2 else 2
     rows = -(-len(cases) // columns)
-    fig = PageFigure(figsize=(7.2 if columns == 1 else 9.6, 3.6 * rows))
+    fig = PageFigure(figsize=(7.2, (3.6 if columns == 1 else 3.2) * rows))
     panels = fig.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    labels = {"many starts": "eight initial conditions"}
     looks = {"many starts": (GREY, ".", 3), "forward sweep": (BLACK, ">", 2.5), "backward sweep": (BLACK, "<", 2.5)}
     for axes, (p, (brute, branches)) in zip(panels, cases.items(), strict=True):
         for name, mu, value, stable in branches:
@@ -81,7 +82,7 @@ def overlay(cases):
         for name, (mu, x) in brute.items():
             colour, marker, size = looks[name]
             look = {"marker": marker, "color": colour, "markersize": size, "markeredgewidth": 0, "zorder": 3}
-            axes.plot(mu, x, linestyle="none", label=name, rasterized=True, **look)
+            axes.plot(mu, x, linestyle="none", label=labels.get(name, name), rasterized=True, **look)
         axes.set(ylim=(-1.7, 1.7))
         axes.set_title(f"$p = {p:g}$", fontsize=10)
     for axes in panels[::columns]:

@@ -29,7 +29,7 @@ def exponents_compared(curves):
                 axes.plot(
                     x[part], exponent[part], marker, color=look["color"], fillstyle=fill, markersize=4, label=label
                 )
-    for axes, name in zip(panels, (r"forcing $\mu$", r"$\mu/\mu_c$", "energy taken per period"), strict=True):
+    for axes, name in zip(panels, (r"$\mu$", r"$\mu/\mu_c$", "energy taken per period"), strict=True):
         axes.set_xlabel(name)
     panels[0].set_ylabel(r"$\lambda_1$ (per unit time)")
     fig.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
@@ -39,7 +39,7 @@ def exponents_compared(curves):
 @styled
 def strong_forcing(shares):
     """Share of chaotic starts against mu up to strong forcing: dict p -> (mu, share)."""
-    fig, axes = panel(MU, "share of chaotic starts", figsize=(6.8, 3.6))
+    fig, axes = panel(MU, "fraction of initial conditions", figsize=(6.8, 3.6))
     for (p, (mu, share)), marker in zip(shares.items(), MARKERS, strict=False):
         axes.plot(mu, share, marker=marker, markersize=3.5, linewidth=1.2, **{**line_of(p), "linestyle": "-"})
     axes.set_ylim(-0.03, 1.03)

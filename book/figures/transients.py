@@ -13,7 +13,7 @@ def survival_curves(curves, sample):
     curves : dict label -> (n, share, since, mean), the law drawn from `since` on with the mean lifetime `mean`
     sample : periods after which the motion of Fig. 5b had settled, drawn as a line
     """
-    fig, axes = panel("time $n$ (forcing periods)", "share of starts still wandering", figsize=(6.8, 4.2))
+    fig, axes = panel("time $n$ (forcing periods)", "fraction still wandering", figsize=(6.8, 4.2))
     looks = zip((VERMILION, ORANGE, BLUE, GREEN), ("-", "--", "-.", ":"), strict=True)
     for (label, (n, share, since, mean)), (colour, dash) in zip(curves.items(), looks, strict=False):
         axes.step(n, share, where="post", color=colour, linestyle=dash, label=label)
@@ -56,7 +56,7 @@ def capture_rates(rates, folds, crises):
     fig = PageFigure(figsize=(6.8, 3.9))
     panels = np.atleast_1d(fig.subplots(1, len(rates), sharey=True))
     for axes, (p, (mu, *both)) in zip(panels, rates.items(), strict=True):
-        looks = ((BLUE, "o", "by the small orbits"), (ORANGE, "s", "by the large orbit"))
+        looks = ((BLUE, "o", "by S"), (ORANGE, "s", "by L"))
         for (rate, error), (colour, marker, label) in zip(both, looks, strict=True):
             seen = rate > 0
             axes.errorbar(
@@ -74,5 +74,5 @@ def _ends(axes, fold, crisis):
     """The fold and the crisis as lines, the window between them shaded where chaos lasts."""
     if fold < crisis:
         axes.axvspan(fold, crisis, color=GREY, alpha=0.2, linewidth=0)
-    axes.axvline(fold, color=BLACK, linestyle="--", linewidth=1.0, label="fold of the small orbits")
+    axes.axvline(fold, color=BLACK, linestyle="--", linewidth=1.0, label="fold of S")
     axes.axvline(crisis, color=BLACK, linestyle=":", linewidth=1.4, label="crisis")

@@ -39,8 +39,8 @@ def order_of_events(p, critical, folds, crises):
     """The critical amplitude, the fold of the small orbits and the crisis against p; lasting chaos shaded."""
     fig, axes = panel("damping exponent $p$", MU, figsize=(6.8, 4.2))
     axes.plot(p, critical, color=GREY, linewidth=2.0, label=r"critical amplitude $\mu_c$, Eq. 13")
-    axes.plot(p, folds, "o--", color=BLUE, markersize=4, label="fold of the small orbits")
-    axes.plot(p, crises, "s-", color=VERMILION, markersize=4, label="crisis: chaos reaches the large orbit's basin")
+    axes.plot(p, folds, "o--", color=BLUE, markersize=4, label="fold of S")
+    axes.plot(p, crises, "s-", color=VERMILION, markersize=4, label="crisis: chaos reaches the basin of L")
     axes.fill_between(p, folds, crises, where=crises > folds, color=VERMILION, alpha=0.2, interpolate=True, linewidth=0)
     inset = axes.inset_axes((0.42, 0.36, 0.55, 0.3))
     inset.axhline(0, color=GREY, linewidth=0.8)

@@ -64,6 +64,23 @@ def joined(parts):
     return Escape(*(np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True)))
 
 
+class Drawn(NamedTuple):
+    """What the figures of lifetimes and rates draw: dicts p -> (mu, mean, error), (mu, bound), (mu, small, large)."""
+
+    means: dict
+    bounds: dict
+    rates: dict
+
+
+def drawn(found):
+    """The Drawn of dict p -> Escape."""
+    return Drawn(
+        {p: (one.mu, one.mean, one.error) for p, one in found.items()},
+        {p: (one.mu, one.bound) for p, one in found.items()},
+        {p: (one.mu, one.small, one.large) for p, one in found.items()},
+    )
+
+
 def ends(p=(0.1, 1.0)):
     """Where the orbits S end and where the crisis is: two dicts p -> mu."""
     chosen = [P_CRISIS.index(one) for one in p]
