@@ -22,6 +22,9 @@ _ALL_ROUND, _LAUNCHES = 65, 17  # launches from one point of W^U to its image, a
 _ZOOMS = 8  # each makes the window four times narrower
 _FLAT = 0.01  # of the height: neighbours that are lower by less are as high
 _FAR = 1e-3  # at most, the image's distance: a long period would carry it from DISTANCE out of the linearised flow
+_NEAREST = (
+    1e-14  # launch: rounding errors of the saddle orbit shift it along W^U; splitting at a phase then errs by 1e-6
+)
 _MARGIN = 0.05  # the image is known to the first order in the distance of the launch
 _FACTOR, _STEPS = 1.03, 30  # of mu from one trial to the next in search of a bracket
 _EXACT = {"xatol": 1e-14, "xrtol": 0, "fatol": 0, "frtol": 0}
@@ -58,9 +61,17 @@ def launched(frame, place, member):
 
     place : (n,), 0 for a point of W^U near the saddle orbit, 1 for its image a period later: that too is so near that
         the linearised flow still says where W^U is
+
+    Raises ConvergenceError where no distance suits both.
     """
     stretch = frame.growth.sum(axis=0)[member]
     distance = np.minimum(DISTANCE, _FAR * np.exp(-stretch))
+    lost = np.flatnonzero(distance < _NEAREST)
+    if lost.size:
+        raise ConvergenceError(
+            f"{frame.osc.named(member[lost[0]])}: over a period orbits leave the saddle orbit by a factor of "
+            f"{np.exp(stretch[lost[0]]):.0e}, too much for doubles to tell where W^U is"
+        )
     node = frame.growth.argmax(axis=0)[member]  # where the orbit creeps least
     direction = frame.directions[:, node, member]
     offset = distance * np.exp(place * stretch) * np.sign(direction[0]) * direction
