@@ -12,6 +12,7 @@ from book.studies import dry_friction
 from book.studies.dry_friction import dry_friction_tangency
 from duffing import Duffing, critical_amplitude, homoclinic_tangency, splitting, trajectory
 from duffing.errors import ConvergenceError, NoSaddleOrbitError
+from duffing.manifolds import threshold as tangency_by_threshold
 from duffing.manifolds.passage import forward_frame, overshoot
 from duffing.manifolds.saddle import saddle_orbit
 from duffing.manifolds.sticking import sticking_amplitude
@@ -97,6 +98,37 @@ def test_both_methods_agree_where_both_answer():
     forced = replace(osc, mu=1.2 * tangency)
     backward = splitting(forced, PHASES, method="manifolds")
     np.testing.assert_allclose(splitting(forced, PHASES, method="threshold"), backward, atol=1e-10)
+
+
+def test_both_methods_agree_at_low_frequencies():
+    """Over a period distances grow by up to exp(24): launches on W^U stay near the saddle orbit all round.
+
+    At omega = 0.25 the splitting at a phase suffers from rounding (see _NEAREST); its greatest value does not.
+    """
+    osc = Duffing(alpha=0.1, p=[0.5, 0.5, 1.0], omega=[0.35, 0.3, 0.25])
+    tangency = homoclinic_tangency(osc, method="manifolds")
+    np.testing.assert_allclose(homoclinic_tangency(osc, method="threshold"), tangency, rtol=1e-9)
+    forced = replace(osc, mu=1.2 * tangency)
+    backward, error = splitting(forced, PHASES, method="manifolds"), np.array([1e-7, 1e-7, 2e-6])
+    assert np.all(np.abs(splitting(forced, PHASES, method="threshold") - backward) < error)
+    with pytest.raises(ConvergenceError, match=r"omega = 0\.2,.*leave the saddle orbit by a factor"):
+        homoclinic_tangency(Duffing(alpha=0.1, p=1.0, omega=0.2), method="threshold")
+
+
+def test_tangency_at_small_p_is_below_the_formula_by_under_a_per_cent_at_low_frequencies():
+    """The values were found with launches at a smaller distance from the saddle orbit."""
+    osc = Duffing(alpha=0.1, p=0.1, omega=[0.3, 0.32])
+    np.testing.assert_allclose(
+        homoclinic_tangency(osc) / critical_amplitude(osc) - 1, [-0.0086208, -0.0070976], atol=2e-6
+    )
+
+
+def test_jump_of_the_splitting_is_no_tangency(monkeypatch):
+    osc = Duffing(alpha=0.1, p=0.1)
+    jump = 0.99 * critical_amplitude(osc)
+    monkeypatch.setattr(tangency_by_threshold, "highest", lambda frame: np.where(frame.osc.mu > jump, 1e-3, -1e-3))
+    with pytest.raises(ConvergenceError, match=r"p = 0\.1.*the splitting jumps instead of vanishing"):
+        homoclinic_tangency(osc)
 
 
 def test_each_member_of_a_family_of_both_methods_gets_its_own():

@@ -73,8 +73,9 @@ def homoclinic_tangency(osc, method="auto", on_failure="raise"):
     `splitting`.
 
     "manifolds": quasi-Newton steps of mu and of the phase, whose starting values are Melnikov's; then the splitting is
-    computed all round to make sure that no other phase is ahead. "threshold": the least mu at which an orbit of W^U
-    goes over the hump; no derivative is taken. Raises ConvergenceError also where mu is too small for doubles.
+    computed all round to make sure that no other phase is ahead. "threshold": where the first orbit of W^U goes over
+    the hump: the sign change nearest mu_c that the search meets; a smaller one is not excluded. No derivative is taken.
+    Raises ConvergenceError also where mu is too small for doubles, and where the splitting jumps instead of vanishing.
     """
 
     def amplitudes(members):

@@ -2,7 +2,7 @@
 
 On v = 0, x > 1 at a phase there is a threshold x_s: orbits that turn below it fall back into the well, orbits that turn
 above it go over the hump. That is W^S. An orbit launched on W^U turns at x_u, goes on, and passes the saddle orbit on
-the one side or the other. So the manifolds first touch at the least mu at which an orbit of W^U goes over. All here is
+the one side or the other. So the manifolds touch at a mu from which an orbit of W^U goes over. All here is
 dimensionless: delta = -1, gamma = 1.
 """
 
@@ -21,10 +21,15 @@ _WELL = 0.5  # |x| beyond which an orbit from the hump is in a well
 _ALL_ROUND, _LAUNCHES = 65, 17  # launches from one point of W^U to its image, and in a window about the best of them
 _ZOOMS = 8  # each makes the window four times narrower
 _FLAT = 0.01  # of the height: neighbours that are lower by less are as high
+_FAR = 1e-3  # at most, the image's distance: a long period would carry it from DISTANCE out of the linearised flow
+_NEAREST = (
+    1e-14  # launch: rounding errors of the saddle orbit shift it along W^U; splitting at a phase then errs by 1e-6
+)
 _MARGIN = 0.05  # the image is known to the first order in the distance of the launch
 _FACTOR, _STEPS = 1.03, 30  # of mu from one trial to the next in search of a bracket
 _EXACT = {"xatol": 1e-14, "xrtol": 0, "fatol": 0, "frtol": 0}
 _TOLERANCE = {"xatol": 0, "xrtol": 1e-10, "fatol": 0, "frtol": 0}  # of the tangency
+_JUMP = 1e-6  # of mu: a height beyond it on both sides of the root, 1e-10 mu apart, does not vanish there
 
 
 def threshold(frame, phase, member):
@@ -54,11 +59,22 @@ def threshold(frame, phase, member):
 def launched(frame, place, member):
     """Where orbits launched on the right branch of W^U next turn with x > 1: a TurningPoint of n orbits.
 
-    place : (n,), 0 for a point of W^U at DISTANCE from the saddle orbit, 1 for its image a period later
+    place : (n,), 0 for a point of W^U near the saddle orbit, 1 for its image a period later: that too is so near that
+        the linearised flow still says where W^U is
+
+    Raises ConvergenceError where no distance suits both.
     """
+    stretch = frame.growth.sum(axis=0)[member]
+    distance = np.minimum(DISTANCE, _FAR * np.exp(-stretch))
+    lost = np.flatnonzero(distance < _NEAREST)
+    if lost.size:
+        raise ConvergenceError(
+            f"{frame.osc.named(member[lost[0]])}: over a period orbits leave the saddle orbit by a factor of "
+            f"{np.exp(stretch[lost[0]]):.0e}, too much for doubles to tell where W^U is"
+        )
     node = frame.growth.argmax(axis=0)[member]  # where the orbit creeps least
     direction = frame.directions[:, node, member]
-    offset = DISTANCE * np.exp(place * frame.growth.sum(axis=0)[member]) * np.sign(direction[0]) * direction
+    offset = distance * np.exp(place * stretch) * np.sign(direction[0]) * direction
     return to_turning_point(
         frame.osc.members(member), frame.states[:, node, member] + offset, frame.t[node, member], beyond=1.0
     )
@@ -116,9 +132,10 @@ def highest(frame):
 
 
 def tangency(unit):
-    """The mu (N,) at which W^U and W^S of the dimensionless family first touch, near its own mu (N,).
+    """The mu (N,) at which W^U and W^S of the dimensionless family touch, near its own mu (N,).
 
-    Raises NoSaddleOrbitError as `forward_frame`, ConvergenceError where none is between 0.4 and 2.4 times that.
+    The sign change nearest that mu that the search meets; a smaller one is not excluded. Raises NoSaddleOrbitError as
+    `forward_frame`, ConvergenceError where none is between 0.4 and 2.4 times that, or where the splitting jumps.
     """
 
     def top(mu, member):
@@ -132,7 +149,14 @@ def tangency(unit):
         left = left[(top(far[left], left) > 0) == over[left]]
         if left.size == 0:
             bracket = np.minimum(near, far), np.maximum(near, far)
-            return elementwise.find_root(top, bracket, args=(who,), tolerances=_TOLERANCE).x
+            found = elementwise.find_root(top, bracket, args=(who,), tolerances=_TOLERANCE)
+            jumps = np.flatnonzero(~(np.abs(found.f_x) <= _JUMP * mu))
+            if jumps.size:
+                raise ConvergenceError(
+                    f"{unit.named(jumps[0])}: near mu = {found.x[jumps[0]]:g} (dimensionless) the splitting jumps "
+                    "instead of vanishing"
+                )
+            return found.x
         near[left] = far[left]
     raise ConvergenceError(
         f"{unit.named(left[0])}: no tangency was found at mu between {min(mu[left[0]], far[left[0]]):g} and "
