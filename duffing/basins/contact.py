@@ -23,8 +23,8 @@ _LEAST = 1e-9  # width of the cells, of the fundamental domain
 
 
 def homoclinic_strips(osc, periods=14, most=30_000, **options):
-    """How many ends the strips of orbits have that go over, on a fundamental domain of the right branch of W^U: 0 before
-    W^U and W^S have met.
+    """How many ends the strips have that go over, on a fundamental domain of the right branch of W^U: 0 before it has
+    met W^S.
 
     An orbit has gone over once it has been left of the left well's middle, x < -sqrt(-delta/gamma).
 
