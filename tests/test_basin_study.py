@@ -7,7 +7,7 @@ import pytest
 
 from book.studies import basins as basin_study
 from book.studies.accuracy import STATISTICS
-from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency
+from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency, saddle_orbit
 from duffing.basins.basins import KINDS
 from duffing.basins.boundary import boundary_dimension, crossings, line_of_starts
 from duffing.basins.contact import first_contact, homoclinic_strips
@@ -26,15 +26,47 @@ def test_the_manifolds_have_met_above_the_primary_tangency_and_not_well_below_it
     assert homoclinic_strips(Duffing(mu=1.001 * tangency), **RK4) > 0
 
 
-def test_the_first_contact_comes_before_the_primary_tangency():
-    low, high = basin_study.contact(1.0, halvings=4)
-    assert high - low == pytest.approx(1e-3 / 2**4)
-    assert 0.9995 < low < high < homoclinic_tangency(Duffing()) / critical_amplitude(Duffing())
+def test_manifolds_first_meet_at_the_primary_tangency():
+    low, high = basin_study.contact(1.0)
+    assert high - low == pytest.approx(3e-3 / 2**8)
+    assert low < basin_study.tangency_ratio(1.0) < high
 
 
-def test_the_accurate_integrator_sees_the_strips_between_first_contact_and_tangency_too():
-    assert homoclinic_strips(linear(0.9995), most=1000, rtol=1e-10, atol=1e-12) == 0
-    assert homoclinic_strips(linear(1.0002), periods=12, most=1500, rtol=1e-10, atol=1e-12) > 0
+def test_orbits_that_linger_below_the_tangency_are_no_contact():
+    """Their fates differ after 14 periods, at one of the forcings after 40 too; none of them goes over."""
+    for ratio, after in ((0.999467, 40), (0.9998, 14), (0.99999, 14)):
+        osc = Duffing(mu=ratio * homoclinic_tangency(Duffing()))
+        saddle = saddle_orbit(osc)
+        ends = (saddle.state + 1e-7 * stretch * saddle.unstable for stretch in (1.0, saddle.multipliers[0]))
+        line = line_of_starts(osc, *ends, after, **RK4)
+        found = crossings(line, least=1e-9, most=30_000)
+        assert set(line(np.append(found.left, found.right))[1]) == {RIGHT, IRREGULAR}
+        assert [homoclinic_strips(osc, periods, **RK4) for periods in (14, 40)] == [0, 0]
+
+
+def test_strips_above_the_tangency_do_not_depend_on_the_periods():
+    for ratio in (1.00001, 1.0002, 1.001):
+        osc = Duffing(mu=ratio * homoclinic_tangency(Duffing()))
+        few, more = (homoclinic_strips(osc, periods, **RK4) for periods in (14, 30))
+        assert few == more > 0
+
+
+def test_crossings_next_to_the_tangency_part_the_wells_however_long_they_are_followed():
+    for ratio in (0.9995, 1.0005):
+        found = basin_study.strips(1.0, ratio)
+        rk4 = {"method": "rk4", "steps_per_period": 96}
+        line = line_of_starts(linear(ratio), *basin_study.AXIS, 60, **rk4)
+        left, right = line(found.left)[1], line(found.right)[1]
+        assert set(left) == set(right) == {LEFT, RIGHT} and np.all(left != right)
+        assert crossings(line, most=30_000).left == pytest.approx(found.left, abs=found.width)
+
+
+def test_the_accurate_integrator_sees_the_strips_on_the_same_side_of_the_tangency():
+    tangency = homoclinic_tangency(Duffing())
+    before, after = (
+        homoclinic_strips(Duffing(mu=ratio * tangency), most=1500, rtol=1e-10, atol=1e-12) for ratio in (0.9995, 1.0005)
+    )
+    assert before == 0 < after
 
 
 def test_a_bracket_that_holds_no_contact_is_refused():
@@ -141,3 +173,9 @@ def test_the_dimension_counted_near_a_tangency_solves_its_sum():
     d = basin_study.counted_dimension(1e-2, 10.0)
     assert 4 * sum(10.0 ** (-n * d) for n in range(2, 400)) == pytest.approx(1.0)
     assert basin_study.counted_dimension(1e-8, 10.0) < d < basin_study.counted_dimension(1e-1, 10.0)
+
+
+def test_at_the_papers_regular_forcing_every_resolved_start_ends_in_a_well_or_on_the_large_orbit():
+    found = basin_study.picture(0.1, mu=basin_study.paper.MU_REGULAR, size=32)
+    assert {KINDS[k] for k in found.kinds} == {"left well", "right well", "round both wells", "unresolved"}
+    assert found.shares[-1] < 0.01

@@ -174,8 +174,8 @@ def random_dimensions(p, ratios, starts=2**12, eps=(1e-4, 3e-4, 1e-3, 3e-3, 1e-2
 
 
 @remembered
-def contact(p=1.0, low=0.999, high=1.0, halvings=6):
-    """The ratios mu/mu_c (below, above) between which W^U and W^S first meet at any turn."""
+def contact(p=1.0, low=0.999, high=1.002, halvings=8):
+    """The ratios mu/mu_c (below, above) between which W^U and W^S first meet, at whatever turn."""
     osc = oscillator(p, 1.0)
     options = {"method": "rk4", "steps_per_period": 200}
     return first_contact(osc, low * osc.mu, high * osc.mu, halvings, **options) / osc.mu
