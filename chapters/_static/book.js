@@ -9,6 +9,10 @@ document.addEventListener("DOMContentLoaded", () => {
   sidebar?.setAttribute("role", "navigation");
   sidebar?.setAttribute("aria-label", "Book");
 
+  // What opens the pages below a chapter is called by that chapter.
+  for (const toggle of document.querySelectorAll(".bd-sidebar-primary summary"))
+    toggle.setAttribute("aria-label", "Pages of " + (toggle.closest("li")?.querySelector("a")?.textContent.trim() ?? "this part"));
+
   // A button that shows words is called by them.
   for (const button of document.querySelectorAll("button.search-button-field[aria-label]"))
     button.removeAttribute("aria-label");

@@ -64,7 +64,7 @@ def test_the_keyboard_reaches_the_content_the_search_and_the_sidebar(visit):
     visit.look()
     visit.value("() => { document.activeElement.blur(); getSelection().removeAllRanges(); scrollTo(0, 0); }")
     seen = []
-    for _ in range(60):
+    for _ in range(200):  # more links than the sidebar of any page
         visit.page.keyboard.press("Tab")
         seen.append(
             visit.value("""() => {
