@@ -21,5 +21,6 @@ def use_local_mathjax(app, config):
 
 
 def setup(app):
+    app.set_html_assets_policy("always")  # titles with mathematics stand in the sidebar of every page
     app.connect("config-inited", use_local_mathjax)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
