@@ -13,6 +13,16 @@ document.addEventListener("DOMContentLoaded", () => {
   for (const toggle of document.querySelectorAll(".bd-sidebar-primary summary"))
     toggle.setAttribute("aria-label", "Pages of " + (toggle.closest("li")?.querySelector("a")?.textContent.trim() ?? "this part"));
 
+  // A table's head of mathematics alone has no words: it is given them, unseen.
+  for (const head of document.querySelectorAll("th")) {
+    const math = head.querySelector(".math");
+    if (!math || head.textContent.replace(math.textContent, "").trim()) continue;
+    const spoken = document.createElement("span");
+    spoken.className = "spoken";
+    spoken.textContent = math.textContent.replace(/[\\(){}]/g, " ").trim() || "symbol";
+    head.append(spoken);
+  }
+
   // A button that shows words is called by them.
   for (const button of document.querySelectorAll("button.search-button-field[aria-label]"))
     button.removeAttribute("aria-label");
