@@ -381,11 +381,23 @@ def test_turning_points_beyond_a_position_skip_the_others_and_starts_have_their_
         assert flow(osc, starts[:, i], [t0[i], found.t[i]])[1] == pytest.approx(0, abs=1e-8)
 
 
-def test_turning_point_that_does_not_come_or_lies_in_a_creep_is_an_error():
+def test_turning_point_that_does_not_come_is_an_error():
     with pytest.raises(ConvergenceError, match="no turning point"):
         turning.to_turning_point(Duffing(), START, 0.0, beyond=5.0)
-    with pytest.raises(ConvergenceError, match="creep"):
-        turning.to_turning_point(Duffing(p=0.1, mu=0.05), [0.9998, 0.0009], 0.0)
+
+
+def test_turning_point_in_a_creep_is_where_the_velocity_changes_sign_and_has_no_derivatives():
+    osc, start = Duffing(p=0.1, mu=0.05), [0.9998, 0.0009]
+    found = turning.to_turning_point(osc, start, 0.0)
+    times = [0.0, *(found.t[0] + np.array([-1e-3, -1e-5, 1e-5, 1e-3]))]
+    around = friction.integrate(osc, start, times, **TIGHT).states[..., 0]
+    assert np.all(around[1, 1:3] > 0) and np.all(around[1, 3:] < 0)
+    assert abs(osc.force(found.x[0], found.t[0])) < 1e-3  # the force has just changed its sign
+    assert around[0, 2] == pytest.approx(found.x[0], abs=1e-12)
+    # A start still nearer to the time leads to the same.
+    assert turning.to_turning_point(osc, around[:, 1], found.t[0] - 1e-3).t[0] == pytest.approx(found.t[0], abs=1e-7)
+    with pytest.raises(ConvergenceError, match="in a creep, where a turning point has no derivatives"):
+        turning.to_turning_point(osc, start, 0.0, derivatives=True)
 
 
 # Families and bad input -------------------------------------------------------------------------------------------

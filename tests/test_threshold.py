@@ -82,7 +82,12 @@ def scipy_highest(osc):
 
 
 @pytest.mark.parametrize(
-    "osc", [Duffing(alpha=0.1, p=0.1), Duffing(alpha=0.3, p=0.2, omega=1.6, delta=-2.0, gamma=0.5)]
+    "osc",
+    [
+        Duffing(alpha=0.1, p=0.1),
+        Duffing(alpha=0.3, p=0.2, omega=1.6, delta=-2.0, gamma=0.5),
+        Duffing(alpha=0.16, p=0.1, omega=1.175),  # some orbits of W^U come to rest in the well
+    ],
 )
 def test_tangency_at_small_p_is_where_the_first_orbit_goes_over_the_hump_by_scipy_alone(osc):
     """A bisection's last bracket: at 1e-7 below no orbit of W^U goes over, at 1e-7 above one does."""
@@ -139,6 +144,40 @@ def test_each_member_of_a_family_of_both_methods_gets_its_own():
         one = Duffing(alpha=0.1, p=float(osc.p[k[0], 0]), omega=float(osc.omega[k[1]]), mu=0.12)
         assert homoclinic_tangency(one) == pytest.approx(tangency[k], rel=1e-9)
         assert splitting(one, 1.0) == pytest.approx(split[k], abs=1e-10)
+
+
+def test_orbits_that_come_to_rest_in_the_well_neither_stop_the_search_nor_matter_to_a_member_beside():
+    """They creep past v = 0 at x > 1. A member alone has other segments of the saddle orbit than in a family."""
+    osc = Duffing(alpha=[0.1, 0.1, 0.1, 0.16, 0.16, 0.16], p=[0.1, 0.1, 0.1, 0.05, 0.1, 0.3])
+    osc = replace(osc, omega=np.array([0.2, 0.25, 2.5, 1.175, 1.175, 1.175]))
+    together = homoclinic_tangency(osc)
+    assert np.all(np.abs(together / critical_amplitude(osc) - 0.975) < 0.016)
+    for member, mu in enumerate(together):
+        assert homoclinic_tangency(osc.members([member])) == pytest.approx(mu, rel=1e-9)
+
+
+@pytest.mark.parametrize("p", [0.1, 0.3])
+@pytest.mark.parametrize("alpha", [0.01, 0.2])
+def test_no_orbit_of_the_unstable_manifold_goes_over_at_weaker_forcing_down_to_half_the_tangency(alpha, p):
+    osc = Duffing(alpha=alpha, p=p)
+    weaker = homoclinic_tangency(osc) * np.append(np.linspace(0.5, 0.99, 25), 0.999)
+    assert np.all(highest(forward_frame(replace(osc, mu=weaker))) < 0)
+
+
+def test_jump_of_the_crossings_time_is_no_crossing(monkeypatch):
+    frame = forward_frame(Duffing(alpha=0.1, p=0.1, mu=0.15))
+    t = tangency_by_threshold.crossing(frame, np.array([1.0]), np.array([0]))  # there is one
+    assert 1 < t[0] < 1.6
+    free = tangency_by_threshold.launched
+
+    def late(frame, place, member):
+        found = free(frame, place, member)
+        return found._replace(t=found.t - 0.5 * (place > 0.4))
+
+    monkeypatch.setattr(tangency_by_threshold, "launched", late)
+    skipped = late(frame, np.array([0.4]), np.array([0])).t[0] - 0.25
+    with pytest.raises(ConvergenceError, match=r"p = 0\.1.*no first crossing"):
+        tangency_by_threshold.crossing(frame, np.array([skipped]), np.array([0]))
 
 
 def test_prototypes_ratios_at_small_p_are_reproduced():

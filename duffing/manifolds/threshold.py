@@ -29,7 +29,7 @@ _MARGIN = 0.05  # the image is known to the first order in the distance of the l
 _FACTOR, _STEPS = 1.03, 30  # of mu from one trial to the next in search of a bracket
 _EXACT = {"xatol": 1e-14, "xrtol": 0, "fatol": 0, "frtol": 0}
 _TOLERANCE = {"xatol": 0, "xrtol": 1e-10, "fatol": 0, "frtol": 0}  # of the tangency
-_JUMP = 1e-6  # of mu: a height beyond it on both sides of the root, 1e-10 mu apart, does not vanish there
+_JUMP = 1e-6  # of mu, or of the period: what is beyond it on both sides of a root does not vanish there
 
 
 def threshold(frame, phase, member):
@@ -91,8 +91,10 @@ def crossing(frame, phase, member):
     t = phase / frame.osc.omega[member]
     t = t + period * np.floor((launched(frame, np.zeros(phase.size), member).t - t) / period)
     found = elementwise.find_root(late, ends, args=(t, member), tolerances=_EXACT)
-    if not found.success.all():
-        missing = np.argmin(found.success)
+    # Where the mass comes to rest beyond x = 1 under a force that holds it there, the time of the crossing jumps.
+    crosses = found.success & (np.abs(found.f_x) <= _JUMP * period)
+    if not crosses.all():
+        missing = np.argmin(crosses)
         raise ConvergenceError(
             f"{frame.osc.named(member[missing])}: W^U has no first crossing of v = 0, x > 1 "
             f"(dimensionless) at the phase {phase[missing]:g}"

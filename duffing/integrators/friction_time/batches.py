@@ -28,7 +28,7 @@ _FAILURES = {
         ConvergenceError,
         "backward in time the solution stays on the slow branch of a creep, where every past ends: it has none",
     ),
-    STUCK: (ConvergenceError, "the velocity passes through zero in a creep, where no turning point is distinguished"),
+    STUCK: (ConvergenceError, "the velocity passes through zero in a creep, where a turning point has no derivatives"),
     NO_CROSSING: (ConvergenceError, "no turning point was found in time"),
 }
 

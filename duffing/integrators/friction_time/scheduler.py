@@ -166,6 +166,26 @@ def store(block, l, result):
 
 
 @inner
+def locate_rest(block, l, Y, h, rtol, atol):
+    """Land where the damping force Y first passes through zero in a creep step of h, as `locate_event` does.
+
+    By bisection: around Y = 0 the velocity is zero in doubles, and has no slope that would lead there.
+    """
+    apart()
+    now, new, owner = lanes(block, NOW), lanes(block, NEW), lanes(block, OWNER)
+    short, long = 0.0, h
+    while long - short > 1e-12 * h:
+        middle = 0.5 * (short + long)
+        _, _, passages, evaluations = radau_step(block, l, Y, middle, 0, rtol, atol)
+        owner[EVALUATIONS, l] += evaluations
+        short, long = (short, middle) if passages > 0 else (middle, long)
+    for row in (X, T, S):
+        now[row, l] = new[row, l]
+    now[W, l] = 0.0
+    return DONE
+
+
+@inner
 def creep(block, l, event, beyond, tangents, control):
     """Implicit steps until the target or a failure, or (GOING) until a step is short enough for the explicit method."""
     apart()
@@ -188,7 +208,7 @@ def creep(block, l, event, beyond, tangents, control):
             e = math.inf  # a turn, or a passage in finite friction time: for explicit steps to resolve
         if e <= 1.0:
             if passages > 0 and event == W and new[X, l] > beyond:
-                return STUCK
+                return STUCK if tangents > 0 else locate_rest(block, l, Y, h, rtol, atol)
             frame[PASSAGES, l] += passages
             Y, new[W, l] = end, math.copysign(abs(end) ** (1 / n), end)
             relaxed = alpha * (new[S, l] - now[S, l])

@@ -43,7 +43,8 @@ def to_turning_point(
 
     Returns a `TurningPoint`; times of the starts themselves at v = 0 do not count.
 
-    Raises ValueError for invalid input, DivergedError, ConvergenceError (none found in time, or it lies in a creep).
+    Raises ValueError for invalid input, DivergedError, ConvergenceError (none found in time, or
+    derivatives are asked for where the velocity passes through zero in a creep, which erases a direction).
     """
     state = np.asarray(state)
     shape = osc.shape if osc.shape or state.ndim < 2 else state.shape[1:]
