@@ -32,6 +32,7 @@ INDEPENDENT = frozenset(
         "eq-8-sides",
         "eq-8-limits",
         "eq-10-11",
+        "eq-12",
         "eq-13",
         "eq-14-15",
         "monotone",

@@ -8,7 +8,7 @@ from duffing import paper
 
 from ..pages import tables
 from ..remember import remembered
-from ..studies import inference, missing_parameters
+from ..studies import inference, likely_pairs, missing_parameters
 from . import contradiction as findings_contradiction
 from . import exponents as findings_exponents
 from . import motion as findings_motion
@@ -58,8 +58,17 @@ def _pairs(key, chance):
     if key in INDEPENDENT:
         return "no", "no"
     if key not in USED:
-        return "no", "yes"
+        return "no", "yes; " + under_rivals(key)
     return "yes: circular", "; ".join(f"{letter}: {p:.2g}" for letter, p in chance[key].items())
+
+
+def under_rivals(key):
+    """What becomes of the verdict under the other likely pairs, in words: a claim that was not used to choose a pair."""
+    adopted = FINDINGS[key]().verdict
+    found = {pair.letter: FINDINGS[key](likely_pairs.oscillator(pair)).verdict for pair in paper.LIKELY[1:]}
+    if set(found.values()) == {adopted}:
+        return f"the same under {' and '.join(found)}"
+    return "; ".join(f"{letter}: {verdict}" for letter, verdict in found.items())
 
 
 @remembered

@@ -74,10 +74,10 @@ def _settled():
 
 
 @finds(FINDINGS, "resonance")
-def _resonance():
+def _resonance(osc=paper.OSCILLATOR):
     p, mu = np.array([paper.P_SMALL, paper.P_LINEAR]), np.array([0.1, 0.2, 0.5, 1.0, 2.0])
     omega = np.linspace(0.4, 2.4, 41)
-    osc = replace(paper.OSCILLATOR, p=p[:, None, None], omega=omega[:, None], mu=mu)
+    osc = replace(osc, p=p[:, None, None], omega=omega[:, None], mu=mu)
     strobe = np.concatenate([[0.0], 200 + np.arange(41) / 40])  # periods
     t = strobe[:, None] * 2 * np.pi / osc.columns()[3]
     x = integrate(osc, (1.0, 0.0), t, method="rk4").states[0, 1:].reshape(41, *osc.shape)
@@ -85,7 +85,7 @@ def _resonance():
     rises = peak[0] > peak[1]
     found = "; ".join(f"μ = {m:g}: {a:.2f} and {b:.2f}" for m, a, b in zip(mu, *peak, strict=True))
     text = (
-        f"The largest half range of x over ω from the start (1, 0), at p = 0.1 and p = 1 (α = {paper.OSCILLATOR.alpha:g}): {found}. Where the "
+        f"The largest half range of x over ω from the start (1, 0), at p = 0.1 and p = 1 (α = {osc.alpha:g}): {found}. Where the "
         "motion stays slow, |v| < 1, a smaller exponent brakes harder and the response falls; where it is fast it rises. The paper gives no numbers."
     )
     return decide(rises.any(), text, limited=not rises.all())
