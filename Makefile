@@ -101,7 +101,7 @@ elsewhere: $(READY)
 	$(BIN)/python tools/elsewhere.py
 
 # The project's own files: what a reader keeps beside them is his own affair.
-SOURCES := benchmarks book duffing proof tests tools
+SOURCES := benchmarks book duffing proof tests tools vectorized
 lint: $(READY)
 	$(BIN)/ruff check $(wildcard $(SOURCES))
 	$(BIN)/ruff format --check $(wildcard $(SOURCES))

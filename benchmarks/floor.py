@@ -11,9 +11,9 @@ import time
 import numpy as np
 from numba import njit
 
-from duffing.integrators.memory import widest_vectors
 from duffing.integrators.powers import evaluate, power
-from duffing.integrators.vectors import fma
+from vectorized.memory import widest_vectors
+from vectorized.vectors import fma
 
 from .rewrites import STEPS
 from .sweep import PERIODS, family, kernel

@@ -6,8 +6,9 @@ import time
 
 import numpy as np
 
-from duffing.integrators import processors, rk4
+from duffing.integrators import rk4
 from duffing.integrators.friction_time import adaptive as friction
+from vectorized import processors
 
 from .rewrites import START
 from .sweep import family

@@ -8,9 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from vectorized import processors
+
 from . import checks
 from .flow import METHODS, POLICIES
-from .integrators import processors
 from .oscillator import Duffing
 
 BLOCK = 256  # members, where the caller knows nothing better

@@ -90,7 +90,7 @@ def make(root, real=False):
     config = yaml.safe_load((BOOK / "_config.yml").read_text(encoding="utf-8"))
     config["sphinx"]["config"] |= {"paper_equations": 0, "paper_figures": []}
     (root / "_config.yml").write_text(yaml.safe_dump(config), encoding="utf-8")
-    sources = ["book/sphinx", "chapters/_static", *(["duffing", "book"] if real else [])]
+    sources = ["book/sphinx", "chapters/_static", *(["duffing", "vectorized", "book"] if real else [])]
     for name in sorted(sources):
         shutil.rmtree(root / name, ignore_errors=True)
         shutil.copytree(BOOK / name, root / name, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)

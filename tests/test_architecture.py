@@ -15,8 +15,9 @@ from pathlib import Path
 import duffing
 
 ROOT = Path(__file__).parents[1]
-# From the ground up: a room imports from itself and from the rooms before it. The first two are the core.
+# From the ground up: a room imports from itself and from the rooms before it. The second line is the core.
 ROOMS = (
+    ("vectorized",),
     ("duffing", "duffing.integrators"),
     ("duffing.integrators.friction_time",),
     ("duffing.sweep",),
@@ -30,10 +31,11 @@ ROOMS = (
     ("book.pages",),
     ("book.claims",),
 )
+PACKAGES = ("vectorized", "duffing", "book")
 FLOOR = {room: number for number, rooms in enumerate(ROOMS) for room in rooms}
 PATHS = {
     ".".join(path.relative_to(ROOT).with_suffix("").parts): path
-    for package in ("duffing", "book")
+    for package in PACKAGES
     for path in sorted((ROOT / package).rglob("*.py"))
     if path.stem != "__init__" and "sphinx" not in path.parts
 }
@@ -51,7 +53,7 @@ def imports(name, nodes=ast.walk):
         elif isinstance(node, ast.ImportFrom):
             base = name.split(".")[: -node.level] if node.level else []
             source = ".".join([*base, *([node.module] if node.module else [])])
-            if source.partition(".")[0] not in ("duffing", "book"):
+            if source.partition(".")[0] not in PACKAGES:
                 outside.add(source.partition(".")[0])
             elif source in PATHS:
                 inside.add(source)
@@ -78,9 +80,18 @@ def test_imports_go_down():
     up = set()
     for name in PATHS:
         level = FLOOR[room(name)]
-        called = imports(name, nodes=statements if level == 0 else ast.walk)[0]
+        called = imports(name, nodes=statements if level == FLOOR["duffing"] else ast.walk)[0]
         up |= {(name, other) for other in called if FLOOR[room(other)] > level}
     assert not up
+
+
+def test_compiled_code_calls_none_of_another_package_than_vectorized():
+    """The cache of compiled code of a package follows that package and `vectorized` (`vectorized.compiled`)."""
+    holds = {name for name in PATHS if "vectorized.compiled" in imports(name)[0]}
+    assert {name.partition(".")[0] for name in holds} == {"duffing", "book"}
+    for name in holds:
+        others = imports(name)[0] & holds
+        assert {other.partition(".")[0] for other in others} <= {name.partition(".")[0]}, name
 
 
 def test_no_modules_import_each_other_in_a_circle():
@@ -151,7 +162,7 @@ def private_names(text):
     """What code takes from the project under a private name: by "from duffing.x import _y", or by "x._y"."""
     tree, modules, found = ast.parse(text), set(), set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] in ("duffing", "book"):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] in PACKAGES:
             modules |= {alias.asname or alias.name for alias in node.names if f"{node.module}.{alias.name}" in PATHS}
             found |= {alias.name for alias in node.names if alias.name.startswith("_")}
     for node in ast.walk(tree):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from book.studies import bifurcations as study
+from book.studies.followed import amplitude, at_exponent, curves, marks, orbits_at, side_by_side, speed, stroboscopic
 from duffing import ConvergenceError, Duffing, paper, poincare_section, saddle_orbit
 from duffing.orbits.bifurcations import FLIP, FOLD
-from duffing.orbits.followed import amplitude, at_exponent, curves, marks, orbits_at, side_by_side, speed, stroboscopic
 from duffing.orbits.periodic import half_return, periodic_orbit, periodic_orbits
 
 

@@ -343,8 +343,9 @@ def test_the_key_of_the_execution_cache_changes_with_every_package_that_computes
 
 def test_the_key_of_the_execution_cache_covers_every_file_of_the_package():
     covered = {path for pattern in CONFIG["sphinx"]["config"]["cache_depends_on"] for path in BOOK.glob(pattern)}
-    package = {path for path in (BOOK / "duffing").rglob("*") if path.is_file() and "__pycache__" not in path.parts}
-    assert package <= covered
+    for name in ("duffing", "vectorized"):
+        files = {path for path in (BOOK / name).rglob("*") if path.is_file() and "__pycache__" not in path.parts}
+        assert files and files <= covered
 
 
 def test_equations_are_typeset_by_mathjax_as_published():

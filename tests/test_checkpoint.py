@@ -195,14 +195,17 @@ def test_an_edit_anywhere_in_the_package_or_another_version_of_what_it_needs_reu
         assert checkpoint.surroundings() not in known
         known.append(checkpoint.surroundings())
 
-    copy = shutil.copytree(checkpoint.PACKAGE, tmp_path / "duffing", ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(checkpoint, "PACKAGE", copy)
+    first, second = checkpoint.PACKAGES
+    copy = shutil.copytree(first, tmp_path / "duffing", ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(checkpoint, "PACKAGES", [copy, second])
     checkpoint.surroundings.cache_clear()
     assert checkpoint.surroundings() == known[0]
     module = copy / "integrators" / "powers.py"
     module.write_text(module.read_text(encoding="utf-8") + "\n", encoding="utf-8")
     assert_changed()
     module.rename(module.with_name("potencies.py"))
+    assert_changed()
+    monkeypatch.setattr(checkpoint, "PACKAGES", [copy])
     assert_changed()
     version = checkpoint.version
     for name in ("numba", "numpy", "scipy"):

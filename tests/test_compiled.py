@@ -10,7 +10,8 @@ import numba
 import pytest
 
 import duffing
-from duffing.integrators.compiled import announced, compiled, fingerprint
+from vectorized import compiled as compiling
+from vectorized.compiled import ROOM, announced, compiled, fingerprint
 
 PACKAGE = Path(duffing.__file__).parent
 RUN = """
@@ -26,15 +27,15 @@ print(float(duffing.trajectory(osc, (0.45, 0.1), [0.0, 2.0], method="rk4")[0, 1]
 def test_the_cache_folder_changes_with_an_edit_of_compiled_code_and_with_no_other(module, changes, tmp_path):
     copy = tmp_path / "duffing"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    assert fingerprint(copy) == fingerprint()
+    assert fingerprint(copy) == fingerprint(PACKAGE)
     path = copy / f"{module}.py"
     path.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
-    assert (fingerprint(copy) != fingerprint()) == changes
+    assert (fingerprint(copy) != fingerprint(PACKAGE)) == changes
 
 
 def test_every_module_with_compiled_code_counts(tmp_path):
     """A module that a kernel takes code from is compiled code itself, and says so by its imports."""
-    for path in PACKAGE.rglob("*.py"):
+    for path in [*PACKAGE.rglob("*.py"), *ROOM.rglob("*.py")]:
         text = path.read_text(encoding="utf-8")
         if "@compiled" in text or "njit" in text or "intrinsic" in text:
             assert "numba" in text or ".compiled import" in text, path.name
@@ -69,7 +70,9 @@ def test_compiling_leaves_the_callers_settings_alone():
 
 
 @pytest.mark.parametrize("terminal", [True, False])
-def test_a_kernel_that_compiles_for_long_says_so_once_and_on_a_terminal_only(terminal, monkeypatch):
+def test_a_kernel_that_compiles_for_long_says_so_once_and_on_a_terminal_only(terminal, monkeypatch, tmp_path):
+    monkeypatch.setattr(compiling, "_folder", lambda package: str(tmp_path))  # an empty cache
+
     @compiled
     def twice(x):
         return 2 * x

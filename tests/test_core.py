@@ -9,9 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 CORE = [*sorted((ROOT / "duffing").glob("*.py")), *sorted((ROOT / "duffing" / "integrators").glob("*.py"))]
 FIGURES = ("1a", "1b", "3a", "3b", "4a", "4b", "5a", "5b", "6a", "6b")
-# No physics: vectors, memory and a cache for numba. (Nor has `paper`, which is numbers and sentences.)
-MACHINERY = ("compiled", "memory", "processors", "vectors")
-MOST_OF_THE_CORE, MOST_OF_THE_MACHINERY, MOST = 1650, 600, 7100
+MOST_OF_THE_CORE, MOST = 1525, 6225
 
 # A process in which nothing of the project can be imported but the core, the study of the paper's figures and what
 # draws them: then each figure's data against the baseline, as `test_figures` compares them.
@@ -76,6 +74,5 @@ def lines(paths):
 
 
 def test_the_core_and_the_package_are_small():
-    assert lines(path for path in CORE if path.stem not in MACHINERY) <= MOST_OF_THE_CORE
-    assert lines(path for path in CORE if path.stem in MACHINERY) <= MOST_OF_THE_MACHINERY
+    assert lines(CORE) <= MOST_OF_THE_CORE
     assert lines((ROOT / "duffing").rglob("*.py")) <= MOST

@@ -12,7 +12,7 @@ from duffing.integrators.friction_time.block import (
 )  # fmt: skip
 from duffing.integrators.friction_time.dop853 import error, step
 from duffing.integrators.friction_time.equations import SMOOTH, TWO_POWERS, first_slopes, parameters
-from duffing.integrators.memory import stack
+from vectorized.memory import stack
 
 
 @numba.njit(error_model="numpy")

@@ -4,8 +4,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from duffing.integrators.compiled import compiled
 from duffing.integrators.friction_time.elementary import cosine, logarithm, power
+from vectorized.compiled import compiled
 
 
 @compiled

@@ -287,7 +287,7 @@ def test_a_heading_of_a_docstring_is_shown_without_its_dashes():
 
 
 def test_names_in_docstrings_lead_to_the_nearest_entry():
-    names = api_page.Names(("duffing", "book", "proof"))
+    names = api_page.Names(("duffing", "vectorized", "book", "proof"))
     assert (
         names.link("integrate", "duffing.integrators.rk4") == ":py:obj:`integrate <duffing.integrators.rk4.integrate>`"
     )
@@ -297,7 +297,7 @@ def test_names_in_docstrings_lead_to_the_nearest_entry():
 
 
 def test_the_pages_on_the_package_hold_every_public_name_and_every_module(tmp_path):
-    rooms = [room for package in ("duffing", "book", "proof") for room in api_page.rooms_of(package)]
+    rooms = [room for package in ("duffing", "vectorized", "book", "proof") for room in api_page.rooms_of(package)]
     assert {path.stem for path in (BOOK / "chapters" / "api").glob("*.md")} == set(rooms), "a page for each room"
     shutil.copytree(BOOK / "chapters" / "api", tmp_path / "api")
     pages = "\n".join(f"api/{room}" for room in rooms)
@@ -312,7 +312,7 @@ def test_the_pages_on_the_package_hold_every_public_name_and_every_module(tmp_pa
     assert complaints == ""
     for name in duffing.__all__:
         assert html["index"].count(f'id="duffing.{name}"') == 1, name
-    for package in ("duffing", "book", "proof"):
+    for package in ("duffing", "vectorized", "book", "proof"):
         for name in api_page.modules_of(package):
             assert html[f"api/{name.rpartition('.')[0]}"].count(f'id="module-{name}"') == 1, name
 

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from book.paper import LIKELY
 from book.studies import inference, missing_parameters, plane
-from duffing import Duffing, critical_amplitude, homoclinic_tangency, lyapunov_spectrum, paper
+from duffing import Duffing, critical_amplitude, homoclinic_tangency, lyapunov_spectrum
 from duffing.basins.contact import homoclinic_strips
 
 ROOT = Path(__file__).parents[1]
@@ -24,7 +25,7 @@ def family(pairs, p):
 
 
 def test_equation_13_is_right_about_the_manifolds_within_some_per_cent_under_every_likely_pair():
-    pairs = [*AROUND, *((pair.alpha, pair.omega) for pair in paper.LIKELY)]
+    pairs = [*AROUND, *((pair.alpha, pair.omega) for pair in LIKELY)]
     for p, most in ((0.1, 0.06), (0.5, 0.02), (1.0, 0.01), (2.0, 0.01)):
         osc = family(pairs, p)
         assert np.all(np.abs(homoclinic_tangency(osc) / critical_amplitude(osc) - 1) < most), p
@@ -54,7 +55,7 @@ def test_lasting_chaos_begins_above_the_critical_amplitude_under_every_pair():
 
 
 def test_the_text_is_more_probable_under_another_pair_than_under_the_adopted_one():
-    alpha, omega = ([getattr(pair, name) for pair in paper.LIKELY] for name in ("alpha", "omega"))
+    alpha, omega = ([getattr(pair, name) for pair in LIKELY] for name in ("alpha", "omega"))
     for seed in (0, 1):
         total = inference.marginal(inference.log_likelihood(missing_parameters.evidence(alpha, omega, seed=seed)))
         assert total[1] > total[0] + np.log(2)

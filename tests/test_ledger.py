@@ -17,7 +17,7 @@ from book.claims.verdicts import (
     decide,
     finds,
 )
-from duffing import paper
+from book.paper import LIKELY, STATEMENTS
 
 EXPECTED = {
     CONFIRMED: "eq-1-5 eq-2 saddle eq-4-7 eq-8 eq-8-limits fig-2 eq-10-11 eq-13 eq-14-15 sufficient above-line "
@@ -32,7 +32,7 @@ EXPECTED = {
 
 
 def test_what_was_used_to_choose_alpha_and_omega_is_said_of_each_claim():
-    keys, statements = {claim.key for claim in CLAIMS}, {s.key for s in paper.STATEMENTS}
+    keys, statements = {claim.key for claim in CLAIMS}, {s.key for s in STATEMENTS}
     assert USED.keys() | INDEPENDENT | OBSERVED <= keys
     assert not USED.keys() & INDEPENDENT
     assert {s for each in USED.values() for s in each} == statements
@@ -48,7 +48,7 @@ def test_confirmations_that_depend_on_nothing_chosen_are_the_equations():
 def test_the_probability_of_each_used_claim_is_given_for_each_likely_pair():
     chance = ledger.over_pairs()
     assert chance.keys() == USED.keys()
-    assert all(each.keys() == {pair.letter for pair in paper.LIKELY} for each in chance.values())
+    assert all(each.keys() == {pair.letter for pair in LIKELY} for each in chance.values())
     assert all(0 < p <= 1 for each in chance.values() for p in each.values())
     assert chance["agreement"]["A"] < chance["agreement"]["B"]  # nearer to the line under the likelier pair
 

@@ -5,17 +5,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from book.paper import LIKELY, STATEMENTS
 from book.studies import inference, likely_pairs, reproduction
 from book.studies import missing_parameters as study
 from duffing import Duffing, critical_amplitude, lyapunov_spectrum, paper
 from duffing.flow import trajectory
 
-A, B, C = paper.LIKELY
+A, B, C = LIKELY
 
 
 @pytest.fixture(scope="module")
 def likely():
-    alpha, omega = zip(*((pair.alpha, pair.omega) for pair in paper.LIKELY), strict=True)
+    alpha, omega = zip(*((pair.alpha, pair.omega) for pair in LIKELY), strict=True)
     return study.evidence(alpha, omega, n=64, few=4)
 
 
@@ -60,7 +61,7 @@ def test_crossings_amplitudes_and_periods_are_those_of_the_motion():
 
 def test_every_statement_has_its_probability_and_none_is_impossible(likely):
     found = inference.probabilities(likely)
-    assert set(found) == {statement.key for statement in paper.STATEMENTS}
+    assert set(found) == {statement.key for statement in STATEMENTS}
     for key, probability in found.items():
         assert np.all(probability > 0) and (key in inference.NUMBERS or np.all(probability <= 1)), key
 
@@ -196,10 +197,10 @@ def test_beyond_the_domain_the_critical_amplitude_exceeds_0_27_at_every_frequenc
 
 
 def test_onsets_of_the_likely_pairs_are_those_of_the_reproduction_and_lie_above_the_line():
-    onsets = likely_pairs.onsets(paper.LIKELY)
+    onsets = likely_pairs.onsets(LIKELY)
     direct = reproduction.onsets(likely_pairs.P, step=0.005, last=0.4, osc=likely_pairs.oscillator(B))
     np.testing.assert_array_equal(onsets["nats"][1], direct)
-    assert np.all(onsets["nats"] > likely_pairs.lines(paper.LIKELY, np.array(likely_pairs.P)))
+    assert np.all(onsets["nats"] > likely_pairs.lines(LIKELY, np.array(likely_pairs.P)))
     assert likely_pairs.THRESHOLDS["bits"] == pytest.approx(0.1 * np.log(2))
 
 

@@ -12,15 +12,14 @@ from pathlib import Path
 import numba
 import pytest
 
-from duffing.integrators import compiled as compiling
-from duffing.integrators import processors
+from vectorized import processors
 
 ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT / "tools"))
 
 import pins  # noqa: E402 - its folder is put on the path above
 
-FOLDERS = ("benchmarks", "book", "duffing", "proof", "tests", "tools")
+FOLDERS = ("benchmarks", "book", "duffing", "proof", "tests", "tools", "vectorized")
 SOURCES = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))]
 
 
@@ -135,7 +134,7 @@ def test_the_threads_are_the_processors_that_the_process_may_use_and_never_none(
 def test_a_process_that_is_bound_to_one_processor_takes_one_thread():
     code = (
         "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})\n"
-        "from duffing.integrators import processors; print(processors.available())"
+        "from vectorized import processors; print(processors.available())"
     )
     assert python(code).stdout == "1\n"
 
@@ -147,7 +146,7 @@ def test_nothing_asks_how_many_processors_the_machine_has():
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Attribute) and node.attr == "cpu_count"
     ]
-    assert asked == ["benchmarks/__main__.py", "duffing/integrators/processors.py"], "the first describes the machine"
+    assert asked == ["benchmarks/__main__.py", "vectorized/processors.py"], "the first describes the machine"
 
 
 SOLVE = """
@@ -158,8 +157,9 @@ print(float(duffing.trajectory(duffing.Duffing(mu=0.3), (0.45, 0.1), [0.0, 2.0],
 
 def test_where_no_folder_may_be_written_to_kernels_compile_without_a_cache_and_say_so_once(tmp_path):
     """The folder of the package is hidden by a file: not even the superuser can put a cache there."""
-    copy = shutil.copytree(compiling.PACKAGE, tmp_path / "duffing", ignore=shutil.ignore_patterns("__pycache__"))
-    for folder in [copy, *(path for path in copy.rglob("*") if path.is_dir())]:
+    for name in ("duffing", "vectorized"):
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    for folder in [path for path in tmp_path.rglob("*") if path.is_dir()]:
         (folder / "__pycache__").write_text("", encoding="utf-8")
     done = python(
         SOLVE,

@@ -68,9 +68,10 @@ def test_a_kernel_is_told_how_many_processors_it_has(tmp_path, monkeypatch):
     (tmp_path / "chapters").mkdir()
     front = "---\njupytext: {text_representation: {extension: .md, format_name: myst}}\n"
     front += "kernelspec: {name: python3, display_name: Python 3, language: python}\n---\n"
-    cell = "from duffing.integrators import processors\nprocessors.available()"
+    cell = "from vectorized import processors\nprocessors.available()"
     (tmp_path / "chapters" / "x.md").write_text(f"{front}\n```{{code-cell}} ipython3\n{cell}\n```\n", encoding="utf-8")
-    (tmp_path / "duffing").symlink_to(ROOT / "duffing")
+    for package in ("duffing", "vectorized"):
+        (tmp_path / package).symlink_to(ROOT / package)
     monkeypatch.setattr(reproducible, "ROOT", tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])
     with mock.patch.dict(os.environ):  # put back after the test, which changes it

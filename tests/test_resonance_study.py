@@ -7,10 +7,10 @@ import pytest
 from scipy.integrate import quad
 
 from book.studies import resonance
+from book.studies.followed import amplitude, at_exponent, curves, speed
 from duffing import ConvergenceError, Duffing, paper, poincare_section
 from duffing.orbits.bifurcations import FOLD
 from duffing.orbits.continuation import BOUND
-from duffing.orbits.followed import amplitude, at_exponent, curves, speed
 from duffing.orbits.periodic import half_return, periodic_orbits
 
 

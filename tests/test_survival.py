@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from book.studies.survival import exponential, law_test, rate, survival
 from duffing import ConvergenceError
-from duffing.transients.survival import exponential, law_test, rate, survival
 
 SEED = 314159
 

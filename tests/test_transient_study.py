@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from book.studies import transients as transient_study
+from book.studies.survival import exponential
 from duffing import ConvergenceError, paper, poincare_section, saddle_orbit, trajectory
-from duffing.transients.survival import exponential
 
 STEP = {"method": "rk4"}
 

@@ -9,9 +9,9 @@ import pytest
 
 from duffing.integrators import rk4
 from duffing.integrators.friction_time import dop853, equations, step_control
-from duffing.integrators.memory import stack, views, widest_vectors
-from duffing.integrators.vectors import bits, fma, from_bits, repeated, root, take, where
 from duffing.oscillator import Duffing
+from vectorized.memory import stack, views, widest_vectors
+from vectorized.vectors import bits, fma, from_bits, repeated, root, take, where
 
 WIDE = llvm.get_host_cpu_features().get("avx512f", False)
 POINTER, WHOLE = numba.types.CPointer(numba.float64), numba.int64

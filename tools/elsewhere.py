@@ -50,7 +50,8 @@ class Place(NamedTuple):
 
 def copied(folder):
     """The checkout's own files, in a folder that everybody may write to."""
-    names = ["benchmarks", "book", "chapters", "docs", "duffing", "proof", "tests", "tools", "binder", ".github", ".ci"]
+    names = ["benchmarks", "binder", "book", "chapters", "docs", "duffing", "proof", "tests", "tools", "vectorized"]
+    names += [".github", ".ci"]
     for name in [name for name in names if (ROOT / name).exists()]:
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__", "kernels-*"))
     for path in [path for path in ROOT.iterdir() if path.is_file() and not path.name.startswith(".git")]:

@@ -24,11 +24,12 @@ from book.figures import exponents_compared, index, small_p, window_ends
 from book.figures import maps as plane_figures
 from book.figures import missing_parameters as candidate_figures
 from book.figures import transients as transient_figures
+from book.paper import LIKELY
 from book.studies import basins, comparison, inference, maps, missing_parameters, reproduction, transients
 from book.studies import small_p as small_p_study
+from book.studies.survival import exponential, law_test, survival
 from duffing import Duffing, critical_amplitude, homoclinic_tangency, paper
 from duffing.basins.basins import KINDS
-from duffing.transients.survival import exponential, law_test, survival
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "_build" / "maps"
@@ -129,7 +130,7 @@ def candidates(alpha_step=0.005, omega_step=0.00625):
         reading = f"in {best[k][0]} from t = {(0, 1200)[best[k][1]]}"
         print(f"{pair}: log likelihood {total[k]:.2f}, {share[k]:.1%} of all, {reading}")
     panels = {"all statements": (missing_parameters.laid_out(plane, total) - total.max()) / np.log(10)}
-    rings = {pair.letter: (pair.alpha, pair.omega) for pair in paper.LIKELY}
+    rings = {pair.letter: (pair.alpha, pair.omega) for pair in LIKELY}
     figure = candidate_figures.likelihood_maps(plane.alpha, plane.omega, plane.exponent, panels, rings)
     write(figure, FOLDER / "candidates.png")
 

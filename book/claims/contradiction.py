@@ -7,12 +7,12 @@ import numpy as np
 from duffing import paper
 from duffing.flow import integrate
 from duffing.melnikov import critical_amplitude
-from duffing.transients.survival import exponential, law_test
 
 from ..remember import remembered
 from ..studies import comparison as comparison_study
 from ..studies import reproduction, small_p
 from ..studies import transients as transient_study
+from ..studies.survival import exponential, law_test
 from .exponents import lasting_chaos, onset_ratios
 from .verdicts import CONFIRMED, RESOLVED, Finding, decide, finds
 

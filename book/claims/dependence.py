@@ -4,7 +4,7 @@ A claim that was used to choose alpha and omega is confirmed in a circle; one th
 pair. Both are said in the ledger beside the verdict.
 """
 
-# Claims that were used, and the statements of `paper.STATEMENTS` by which.
+# Claims that were used, and the statements of `book.paper.STATEMENTS` by which.
 USED = {
     "above-line": ("above-line",),
     "agreement": ("agreement",),

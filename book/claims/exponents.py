@@ -12,6 +12,7 @@ from duffing.melnikov import critical_amplitude
 from duffing.paper import P_ONSET
 
 from ..pages.typeset import times
+from ..paper import LIKELY
 from ..remember import remembered
 from ..studies import likely_pairs, reproduction, small_p
 from ..studies.accuracy import CURVES
@@ -116,7 +117,7 @@ def _above_line():
 def _agreement():
     _, _, ratio = onset_ratios()
     at_one = ratio[P_ONSET.index(1.0)]
-    nearest = likely_pairs.onset_ratios(paper.LIKELY[1:])
+    nearest = likely_pairs.onset_ratios(LIKELY[1:])
     text = (
         f"The onsets lie at {np.nanmin(ratio):.2f} to {np.nanmax(ratio):.2f} times $μ_c$ ({at_one:.2f} at p = 1). What agrees with "
         "Eq. 13 is the tangency of the manifolds, which it predicts (chapter “The homoclinic tangency”)."

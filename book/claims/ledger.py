@@ -4,9 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from duffing import paper
-
 from ..pages import tables
+from ..paper import LIKELY
 from ..remember import remembered
 from ..studies import inference, likely_pairs, missing_parameters
 from . import contradiction as findings_contradiction
@@ -65,7 +64,7 @@ def _pairs(key, chance):
 def under_rivals(key):
     """What becomes of the verdict under the other likely pairs, in words: a claim that was not used to choose a pair."""
     adopted = FINDINGS[key]().verdict
-    found = {pair.letter: FINDINGS[key](likely_pairs.oscillator(pair)).verdict for pair in paper.LIKELY[1:]}
+    found = {pair.letter: FINDINGS[key](likely_pairs.oscillator(pair)).verdict for pair in LIKELY[1:]}
     if set(found.values()) == {adopted}:
         return f"the same under {' and '.join(found)}"
     return "; ".join(f"{letter}: {verdict}" for letter, verdict in found.items())
@@ -78,7 +77,7 @@ def over_pairs():
     That of what the paper says, under the pair, in the reading of the exponents that suits the pair best; of a printed
     exponent the probability of one within 0.01 of it. Claims used by several statements: the product.
     """
-    alpha, omega = ([getattr(pair, name) for pair in paper.LIKELY] for name in ("alpha", "omega"))
+    alpha, omega = ([getattr(pair, name) for pair in LIKELY] for name in ("alpha", "omega"))
     evidence = missing_parameters.evidence(alpha, omega)
     reading = inference.best_reading(inference.log_likelihood(evidence))
     found = [inference.probabilities(evidence, *each) for each in reading]
@@ -87,7 +86,7 @@ def over_pairs():
         width = 0.02 if statements[0] in inference.NUMBERS else 1.0  # a density over the interval
         chance[claim] = {
             pair.letter: min(1.0, width * float(np.prod([each[key][k] for key in statements])))
-            for k, (pair, each) in enumerate(zip(paper.LIKELY, found, strict=True))
+            for k, (pair, each) in enumerate(zip(LIKELY, found, strict=True))
         }
     return chance
 

@@ -202,7 +202,7 @@ def setup(app):
     app.setup_extension("sphinx.ext.autodoc")
     app.config.autodoc_preserve_defaults = True
     app.config.autodoc_typehints = "none"  # NamedTuples alone have any, and their docstrings say more
-    app.add_config_value("api_packages", ["duffing", "book", "proof"], "env")
+    app.add_config_value("api_packages", ["duffing", "vectorized", "book", "proof"], "env")
     app.add_directive("package-overview", PackageOverview)
     app.add_directive("room-page", RoomPage)
     app.connect("autodoc-process-docstring", process)

@@ -23,7 +23,7 @@ import sys
 
 class Machine(logging.StreamHandler):
     def emit(self, record):
-        if record.name.partition(".")[0] in ("root", "__main__", "duffing", "book", "proof"):
+        if record.name.partition(".")[0] in ("root", "__main__", "duffing", "vectorized", "book", "proof"):
             super().emit(record)
         else:
             with open({log!r}, "a", encoding="utf-8") as file:

@@ -14,7 +14,7 @@ from pathlib import Path
 from fingerprint import key, versions
 
 SLOW = 3.0  # seconds from which a test is slow: its time is shown, and `make check` leaves it out
-COVERS = ("duffing/**/*", "book/**/*", "proof/**/*", "tests/**/*", "environment.txt")
+COVERS = ("duffing/**/*", "vectorized/*", "book/**/*", "proof/**/*", "tests/**/*", "environment.txt")
 WORST_FIRST = ("failed", "skipped", "passed")
 NONE = {"state": "", "when": 0.0, "versions": {}, "outcomes": {}, "durations": {}}
 

@@ -20,7 +20,10 @@ from duffing.orbits.bifurcations import (
 )
 from duffing.orbits.continuation import BOUND
 from duffing.orbits.diagram import bifurcation_diagram
-from duffing.orbits.followed import (
+from duffing.orbits.periodic import cycle, periodic_orbits
+
+from ..remember import remembered
+from .followed import (
     DRAWING,
     AnnotatedBranch,
     at_exponent,
@@ -29,9 +32,6 @@ from duffing.orbits.followed import (
     orbits_at,
     stroboscopic,
 )
-from duffing.orbits.periodic import cycle, periodic_orbits
-
-from ..remember import remembered
 
 EXPONENTS = (0.1, 0.5, 1.0, 2.0)
 IN_WELL, LARGE, SADDLE, THIRD = "in a well", "round both wells", "saddle orbit", "period 3"

@@ -3,9 +3,9 @@
 import numpy as np
 
 from duffing.orbits.bifurcations import FLIP, FOLD
-from duffing.orbits.followed import at_exponent, curves, marks, side_by_side
 
 from . import bifurcations as study
+from .followed import at_exponent, curves, marks, side_by_side
 from .transients import crises
 
 EXPONENTS = (0.1, 1.0)

@@ -14,7 +14,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from duffing import checks
 from duffing.errors import ConvergenceError
-from duffing.integrators.compiled import compiled
+from vectorized.compiled import compiled
 
 from ..remember import remembered
 

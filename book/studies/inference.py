@@ -52,7 +52,7 @@ WIDTH = 0.6  # interval of exponents over which a misprinted one is thought to l
 
 
 def probabilities(evidence, unit="nats", average=0, models=STATED):
-    """Probability of each statement of `paper.STATEMENTS` for m candidates: dict key -> (m,).
+    """Probability of each statement of `book.paper.STATEMENTS` for m candidates: dict key -> (m,).
 
     For the two printed exponents it is a density, per unit of the exponent. unit : of the paper's exponents, a key of
     `UNITS`; average : 0 from t = 0, 1 from t = 1200

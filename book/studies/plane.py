@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from duffing import checks, paper
+from duffing import checks
 from duffing.errors import ConvergenceError
 from duffing.flow import integrate
 from duffing.lyapunov import lyapunov_spectrum
@@ -14,13 +14,14 @@ from duffing.oscillator import Duffing
 from duffing.transients.crisis import beyond, crisis_above, large_saddle, saddles
 from duffing.transients.lifetimes import lifetimes
 
+from ..paper import LIKELY
 from ..remember import remembered
 from .accuracy import CURVES, integrator
 from .cascade import CHAOTIC, cascade, small_folds
 from .transients import starts_between_wells
 
 # Pairs (alpha, omega) under which the paper's text can be read: the likeliest, the adopted one first, and three more.
-PAIRS = (*((pair.alpha, pair.omega) for pair in paper.LIKELY), (0.14, 1.05), (0.16, 1.175), (0.05, 1.3))
+PAIRS = (*((pair.alpha, pair.omega) for pair in LIKELY), (0.14, 1.05), (0.16, 1.175), (0.05, 1.3))
 EXPONENTS = (0.1, 1.0)
 STEPS = 128  # Runge-Kutta steps a period where the damping is smooth: of chaos only the attractor is meant
 BELOW = 0.05  # under the fold, where the search for a crisis begins

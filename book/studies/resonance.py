@@ -10,10 +10,10 @@ from duffing import checks, paper
 from duffing.errors import ConvergenceError
 from duffing.orbits.bifurcations import FOLD, bifurcation_curves, bifurcations, orbit_branches
 from duffing.orbits.continuation import BOUND
-from duffing.orbits.followed import AnnotatedBranch, at_exponent, curves, marks, speed
 
 from ..remember import remembered
 from .bifurcations import IN_WELL, LARGE, joined, settled
+from .followed import AnnotatedBranch, at_exponent, curves, marks, speed
 
 EXPONENTS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
 

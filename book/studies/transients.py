@@ -12,10 +12,10 @@ from duffing.orbits.periodic import periodic_orbit
 from duffing.poincare import poincare_section
 from duffing.transients.crisis import crisis, edge_distance, large_saddle, saddles
 from duffing.transients.lifetimes import both_wells, lifetimes
-from duffing.transients.survival import exponential, rate
 
 from ..remember import remembered
 from .accuracy import integrator
+from .survival import exponential, rate
 
 SINCE = 20  # periods before a transient is chaotic: orbits that start in a basin's interior are captured sooner
 # A coarse bracket of the crisis for each exponent, and where the small orbits are met on their way to the fold.

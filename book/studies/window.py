@@ -7,9 +7,9 @@ import numpy as np
 
 from duffing import paper
 from duffing.melnikov import critical_amplitude
-from duffing.transients.survival import exponential, law_test, survival
 
 from . import transients
+from .survival import exponential, law_test, survival
 from .transients import ABOVE, P_CRISIS, SINCE, Escape
 
 LOW = (0.147, 0.15, 0.16, 0.17, 0.18, 0.20, 0.22, 0.24)  # from just above mu_c on, at p = 0.1

@@ -6,10 +6,11 @@ exponents contain it.
 
 import numpy as np
 
+from vectorized.vectors import EIGHT
+
 from .. import checks
 from .forcing import map_chunks
 from .rk4 import LANES, advance, check_finite, checked
-from .vectors import EIGHT
 
 
 def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, threads=None):

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import mpmath
 import numpy as np
 
-from .compiled import compiled, inlined
-from .vectors import bits, fma, from_bits, take
+from vectorized.compiled import compiled, inlined
+from vectorized.vectors import bits, fma, from_bits, take
 
 DEGREE = 8
 MOST_BITS = 10  # a table of 2048 x 2^10 doubles, 16 MB: enough for |q| up to about 200

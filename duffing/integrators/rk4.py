@@ -11,18 +11,18 @@ import math
 
 import numpy as np
 
+from vectorized import processors
+from vectorized.compiled import compiled, inlined
+from vectorized.memory import stack, views, widest_vectors
+from vectorized.vectors import EIGHT, fma, root, where
+
 from .. import checks
 from ..errors import DivergedError
-from . import processors
-from .compiled import compiled, inlined
 from .forcing import map_chunks
-from .memory import stack, views, widest_vectors
 from .powers import evaluate
 from .solution import Solution
-from .vectors import EIGHT, fma, root, where
 
-# Trajectories of a block: its rows stay in the first-level cache.
-LANES = 64
+LANES = 64  # trajectories of a block: its rows stay in the first-level cache
 # Steps after which tangents are made orthonormal, so that nothing over- or underflows in a long interval.
 BETWEEN = 50
 

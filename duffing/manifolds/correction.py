@@ -11,7 +11,8 @@ Y' D(Y') and the smooth second order p |Y'|^p X'. What is left of it,
 and the same for the return with -Y', gives mu_t = mu_c (1 + alpha^(1+p) (K_u + K_s) / damping_integral + ...). X' is
 taken without damping, wrong by a relative alpha^p: what follows is of order alpha^(1+2p), or alpha^2 for p > 1/2.
 The loop is outermost at omega t0 = pi/2 and was at alpha Y a time log(2 sqrt(2) / alpha) before: K_u + K_s is periodic
-in log(alpha). Half a forcing period exchanges the two, so its period is pi sqrt(-delta) / omega.
+in log(alpha). Half a forcing period exchanges the two, so its period is pi sqrt(-delta) / omega. The terms that follow
+have no such exchange: with them the period is twice as long.
 """
 
 import numpy as np

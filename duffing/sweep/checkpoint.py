@@ -21,7 +21,9 @@ from pathlib import Path
 
 import numpy as np
 
-PACKAGE = Path(__file__).parents[1]
+import vectorized
+
+PACKAGES = [Path(__file__).parents[1], Path(vectorized.__file__).parent]
 
 
 class Checkpoint:
@@ -88,8 +90,9 @@ class Checkpoint:
 def surroundings():
     """What numbers depend on besides the call: the package's text, the packages that it needs, Python, the machine."""
     digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*.py")):
-        digest.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for package in PACKAGES:
+        for path in sorted(package.rglob("*.py")):
+            digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     needed = {re.match(r"[\w.-]+", line)[0] for line in requires("duffing") or () if "extra ==" not in line}
     return [digest.hexdigest(), sorted(map(_versioned, needed)), platform.python_version(), platform.machine()]
 

@@ -1,1 +1,1 @@
-"""Transient chaos: lifetimes, survival and the crisis that ends or begins it."""
+"""Transient chaos: lifetimes and the crisis that ends or begins it."""

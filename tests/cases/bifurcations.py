@@ -8,8 +8,8 @@ import numpy as np
 
 from book.figures import bifurcations as figures
 from book.studies import bifurcations as study
+from book.studies.followed import amplitude, at_exponent, curves, marks, stroboscopic
 from duffing import Duffing, critical_amplitude, homoclinic_tangency
-from duffing.orbits.followed import amplitude, at_exponent, curves, marks, stroboscopic
 
 from .case import Case, to_roundoff
 

@@ -5,7 +5,7 @@ import numpy as np
 from book.figures import resonance as figures
 from book.studies import bifurcations as study
 from book.studies import resonance
-from duffing.orbits.followed import amplitude, at_exponent
+from book.studies.followed import amplitude, at_exponent
 
 from .bifurcations import P, near_curves, packed, packed_marks, resampled, unpacked, unpacked_marks
 from .case import Case

@@ -6,7 +6,7 @@ import numpy as np
 
 from book.figures import transients as figures
 from book.studies import transients as study
-from duffing.transients.survival import exponential, survival
+from book.studies.survival import exponential, survival
 
 from .case import Case, to_roundoff
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ... import checks
 from ...errors import ConvergenceError, DivergedError
-from .. import processors
+from vectorized import processors
 from .block import WIDTH
 from .equations import parameters
 from .scheduler import AT_T, RESULTS, run_lanes

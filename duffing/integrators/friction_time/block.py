@@ -17,7 +17,7 @@ function opens the parts that it reads and writes by name. What a lane computes 
 
 import math
 
-from ..memory import views
+from vectorized.memory import views
 
 WIDTH = 32  # lanes: enough to hide the latencies of the processor, few enough that a block fits its first-level cache
 

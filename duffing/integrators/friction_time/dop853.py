@@ -7,9 +7,9 @@ coefficients are SciPy's. The equations are those of `equations`; nothing here k
 import numpy as np
 from scipy.integrate import DOP853
 
-from ..compiled import inlined, inner
-from ..memory import widest_vectors
-from ..vectors import fma, repeated, root, where
+from vectorized.compiled import inlined, inner
+from vectorized.memory import widest_vectors
+from vectorized.vectors import fma, repeated, root, where
 from .block import (
     ETA1, ETA2, LAST, NEW, NOW, SLOPES, STEP, XI1, XI2, H, M, S, T, W, X, eights,
 )  # fmt: skip

@@ -7,8 +7,8 @@ exponent serves many values the table of `powers` is cheaper; here each value ha
 import mpmath
 import numpy as np
 
-from ..compiled import inlined
-from ..vectors import bits, fma, from_bits, where
+from vectorized.compiled import inlined
+from vectorized.vectors import bits, fma, from_bits, where
 
 _ROUND = 1.5 * 2.0**52  # added and taken away again it rounds to a whole number
 _TO_ONE = np.uint64(0x3FF0000000000000 - 0x3FE6A09E667F3BCD)  # from the bits of sqrt(1/2) to those of 1

@@ -22,9 +22,9 @@ import math
 
 import numpy as np
 
-from ..compiled import inlined, inner
-from ..memory import apart, widest_vectors
-from ..vectors import fma, repeated, where
+from vectorized.compiled import inlined, inner
+from vectorized.memory import apart, widest_vectors
+from vectorized.vectors import fma, repeated, where
 from .block import (
     ALPHA, DAMPER, DELTA, ETA1, ETA2, GAMMA, LINEAR, MU, NEW, NOW, OMEGA, OSC, SLOPES, SPRING, START, XI1, XI2, M,
     N, S, T, W, X, eights, lanes,

@@ -4,9 +4,9 @@ Newton's iteration in the step's length, kept inside a bracket; the last, neglig
 tangent to the orbit. Each trial is a step like any other: the lanes beside do not wait.
 """
 
-from ..compiled import inlined, inner
-from ..memory import apart
-from ..vectors import where
+from vectorized.compiled import inlined, inner
+from vectorized.memory import apart
+from vectorized.vectors import where
 from .block import FAR, LAST, MOVE, NEAR, NEW, NOW, OWNER, SLOPES, STEP, TARGET, H, T, W, lanes
 
 

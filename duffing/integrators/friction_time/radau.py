@@ -21,8 +21,8 @@ import math
 
 import numpy as np
 
-from ..compiled import inlined, inner
-from ..memory import matrix, stack
+from vectorized.compiled import inlined, inner
+from vectorized.memory import matrix, stack
 from .block import ALPHA, DELTA, GAMMA, MU, NEW, NOW, OSC, XI1, P, S, T, X, lanes
 from .equations import force, stiffness
 

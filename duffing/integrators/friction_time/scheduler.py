@@ -10,8 +10,8 @@ import math
 
 from numba import int64
 
-from ..compiled import announced, compiled, inner
-from ..memory import apart, stack
+from vectorized.compiled import announced, compiled, inner
+from vectorized.memory import apart, stack
 from .block import (
     ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LOG1, LOG2, MEMBER, MOVE, NEW, NOW,
     OMEGA, OSC, OUTCOME, OWNER, PACE, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, STEPS, TARGET,

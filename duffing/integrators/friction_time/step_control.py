@@ -5,9 +5,9 @@ Everything is each lane's own and chosen by selection instead of branches, so th
 
 import math
 
-from ..compiled import inlined, inner
-from ..memory import widest_vectors
-from ..vectors import root, where
+from vectorized.compiled import inlined, inner
+from vectorized.memory import widest_vectors
+from vectorized.vectors import root, where
 from .block import (
     ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, PACE, REJECTED, SIGN, SLOPES, STEP,
     STEPS, TARGET, H, M, N, P, S, T, W, X, eights,

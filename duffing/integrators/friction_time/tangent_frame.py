@@ -2,8 +2,8 @@
 
 import math
 
-from ..compiled import inlined, inner
-from ..memory import apart
+from vectorized.compiled import inlined, inner
+from vectorized.memory import apart
 from .block import ETA1, ETA2, FRAME, LOG1, LOG2, NOW, SHEAR, XI1, XI2, lanes
 
 

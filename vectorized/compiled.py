@@ -1,8 +1,9 @@
-"""Compiled functions whose disk cache never outlives the code: a folder of its own for each state of the package.
+"""Compiled functions whose disk cache never outlives the code: a folder of its own for each state of a package.
 
 Numba keeps compiled code by the file that a function stands in, and does not see an edit in a function that it calls:
-an edited kernel would go on giving the old numbers. So the cache lies in a folder named by a hash of all modules that
-hold compiled code. Where no folder may be written to, every process compiles for itself, and says so once.
+an edited kernel would go on giving the old numbers. So the cache of a package lies in a folder named by a hash of all
+its modules that hold compiled code, and of those here; compiled functions call no others. Where no folder may be
+written to, every process compiles for itself, and says so once.
 """
 
 import hashlib
@@ -10,37 +11,44 @@ import os
 import shutil
 import sys
 import warnings
-from functools import wraps
+from functools import cache, wraps
 from pathlib import Path
 
 import numba
 from numba.core import event
 
-PACKAGE = Path(__file__).parents[1]
+ROOM = Path(__file__).parent
 
 
-def fingerprint(package=PACKAGE):
-    """Hash of the names and texts of the modules with compiled code: a string of twelve hexadecimal digits."""
+def fingerprint(package):
+    """Hash of the modules with compiled code, a package's and those here: twelve hexadecimal digits."""
     digest = hashlib.sha256()
-    for path in sorted(Path(package).rglob("*.py")):
-        text = path.read_bytes()
-        if b"numba" in text or b".compiled import" in text:
-            digest.update(path.relative_to(package).as_posix().encode() + b"\0" + text + b"\0")
+    for folder in (ROOM, Path(package)):
+        for path in sorted(folder.rglob("*.py")):
+            text = path.read_bytes()
+            if b"numba" in text or b".compiled import" in text:
+                digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + text + b"\0")
     return digest.hexdigest()[:12]
 
 
-def _folder():
-    parent = PACKAGE / "__pycache__"
-    if not os.access(parent if parent.exists() else PACKAGE, os.W_OK):
+def _package(function):
+    """The folder of the package that a function belongs to; a module or a notebook without one counts as of here."""
+    depth = function.__module__.count(".")
+    return Path(function.__code__.co_filename).parents[depth - 1] if depth else ROOM
+
+
+@cache
+def _folder(package):
+    parent = package / "__pycache__"
+    if not os.access(parent if parent.exists() else package, os.W_OK):
         return numba.config.CACHE_DIR  # an installation that may not be written to: numba looks for a place itself
-    folder = parent / f"kernels-{fingerprint()}"
+    folder = parent / f"kernels-{fingerprint(package)}"
     if not folder.exists():
         for old in parent.glob("kernels-*"):
             shutil.rmtree(old, ignore_errors=True)
     return str(folder)
 
 
-_FOLDER = _folder()
 _UNCACHED = []  # what is compiled without a cache
 
 
@@ -54,7 +62,7 @@ def compiled(function=None, **options):
     if numba.config.DISABLE_JIT:
         return _refused(function)
     options = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, **options}
-    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _FOLDER
+    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _folder(_package(function))
     try:
         return numba.njit(cache=not _UNCACHED, **options)(function)
     except RuntimeError as reason:

@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import checks
-from ..oscillator import Duffing
-from .bifurcations import Bifurcation, OrbitBranch
-from .periodic import cycle, path, periodic_orbit
+from duffing import checks
+from duffing.orbits.bifurcations import Bifurcation, OrbitBranch
+from duffing.orbits.periodic import cycle, path, periodic_orbit
+from duffing.oscillator import Duffing
 
 DRAWING = {"rtol": 1e-7, "atol": 1e-9}  # for curves: a line is wider than the error
 

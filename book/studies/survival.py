@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import checks
-from ..errors import ConvergenceError
+from duffing import checks
+from duffing.errors import ConvergenceError
 
 SEED = 20061201  # of the bootstrap
 
@@ -28,7 +28,7 @@ class Exponential(NamedTuple):
 def survival(time, settled):
     """Share of orbits that wander longer than n periods (Kaplan and Meier): n (m,), share (m,), from (0, 1) downwards.
 
-    time, settled : as in `duffing.lifetimes.Lifetimes`, any shape
+    time, settled : as in `duffing.transients.lifetimes.Lifetimes`, any shape
     """
     time, settled = _sample(time, settled)
     n = np.unique(time[settled])
