@@ -43,7 +43,7 @@ def run(chapter, threads, folder):
     """The chapter's notebook, executed in a kernel that believes in so many processors."""
     surroundings = folder / f"kernels-{threads}"
     isolate(surroundings, ROOT)
-    script = f"from duffing.integrators import processors\nprocessors.available = lambda: {threads}\n"
+    script = f"from vectorized import processors\nprocessors.available = lambda: {threads}\n"
     (surroundings / "ipython" / "profile_default" / "startup" / "threads.py").write_text(script, encoding="utf-8")
     notebook = jupytext.read(ROOT / f"{chapter}.md")
     NotebookClient(notebook, timeout=1200, resources={"metadata": {"path": ROOT / "chapters"}}).execute()
