@@ -134,6 +134,8 @@ def fill(app, doctree, page):
             node += nodes.Text(totals(app, node["totals"]))
     for node in list(doctree.findall(lambda node: isinstance(node, nodes.bullet_list) and "slow" in node)):
         node += slow(app, page)
+        if not node.children:
+            node.parent.replace(node, nodes.paragraph("", "None."))
 
 
 def link(app, page, test, shown, title=None):
@@ -184,7 +186,8 @@ class TestOverview(SphinxDirective):
             named = pending_xref("", nodes.inline(), refdomain="std", reftype="doc", **where)
             pages += nodes.list_item("", nodes.paragraph("", "", named, nodes.Text(": "), nodes.inline(totals=page)))
         title = nodes.title("", "Slow tests")
-        section = nodes.section("", title, nodes.bullet_list(bullet="-", slow=True), ids=["slow-tests"])
+        which = nodes.paragraph("", f"These took {run_report.SLOW:g} s or more in the last run, all cases together.")
+        section = nodes.section("", title, which, nodes.bullet_list(bullet="-", slow=True), ids=["slow-tests"])
         return [nodes.paragraph("", "", nodes.inline(summary=True)), pages, section]
 
 
