@@ -50,13 +50,15 @@ PAGES = {
     {glue:text}`index.md::number:.3f` and {eq}`eq-own`.
     """,
     "chapters/about.md": "# About\n\n```{nb-exec-table}\n```\n",
-    "chapters/tests.md": "# Tests\n\n```{test-page}\n```\n",
+    "chapters/tests.md": "# Tests\n\n```{test-overview}\n```\n",
+    "chapters/tests/small.md": "# Small tests\n\n```{test-page}\nsmall\n```\n",
     "tests/test_small.py": "def test_it():\n    assert True\n",
     "duffing/model.py": "x = 1\n",
     "environment.txt": "",
     "chapters/references.bib": "",
     "_toc.yml": "{format: jb-book, root: chapters/index, chapters: "
-    "[{file: chapters/second}, {file: chapters/about}, {file: chapters/tests}]}",
+    "[{file: chapters/second}, {file: chapters/about}, "
+    "{file: chapters/tests, sections: [{file: chapters/tests/small}]}]}",
 }
 
 

@@ -32,6 +32,8 @@ INDEX = """
 
     ```{toctree}
     tests_page
+    tests_page/whole
+    tests_page/rest
     ```
 
     $$ a $$ (eq-1)
@@ -48,9 +50,24 @@ INDEX = """
 TESTS_PAGE = """
     # All tests
 
-    ```{test-page}
+    ```{test-overview}
     ```
 """
+WHOLE_PAGE = """
+    # Whole
+
+    ```{test-page}
+    a
+    ```
+"""
+REST_PAGE = """
+    # Rest
+
+    ```{test-page}
+    b
+    ```
+"""
+REST = "def test_of_another_file():\n    assert True\n"
 TESTS = '''
     """Whole numbers."""
     import pytest
@@ -92,6 +109,7 @@ def book(tmp_path):
     """A small book with tests of its own."""
     head = f"import sys\nsys.path.append({str(BOOK / 'book' / 'sphinx')!r})\n"
     write(tmp_path, {"index.md": INDEX, "tests_page.md": TESTS_PAGE, "pytest.ini": "[pytest]\n"})
+    write(tmp_path, {"tests_page/whole.md": WHOLE_PAGE, "tests_page/rest.md": REST_PAGE, "tests/test_b.py": REST})
     write(tmp_path, {"tests/conftest.py": CONFTEST, "tests/test_a.py": TESTS.format(three=3)})
     (tmp_path / "conf.py").write_text(head + textwrap.dedent(CONFIG), encoding="utf-8")
     return tmp_path
@@ -121,6 +139,10 @@ def marks_of(html):
     return found
 
 
+def plain(html):
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", html))
+
+
 def words(found):
     return {label: [text.partition(":")[0] for _, text in texts] for label, texts in found.items()}
 
@@ -135,11 +157,13 @@ def test_a_mark_beside_each_equation_leads_to_its_tests_and_says_how_they_ended(
     link, text = found["eq-1"][0]
     assert text == "✓ tested: One is one"
     page, anchor = link.split("#")
-    assert page == "tests_page.html" and f'id="{anchor}"' in html["tests_page"]
-    listed = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", html["tests_page"]))
+    assert page == "tests_page/whole.html" and f'id="{anchor}"' in html["tests_page/whole"]
+    listed, overview = (plain(html[name]) for name in ("tests_page/whole", "tests_page"))
     assert "One is one – ✓ passed, 2 cases" in listed and "Three is three – ✗ failed" in listed
     assert "Nobody cites me – ○ skipped" in listed
-    assert "2 passed, 1 failed, 1 skipped, with Python" in listed
+    assert "3 passed, 1 failed, 1 skipped, with Python" in overview
+    assert re.search(r"Rest: 1 passed, \d+ s Whole: 2 passed, 1 failed, 1 skipped, \d+ s", overview)
+    assert "Of another file – ✓ passed" in plain(html["tests_page/rest"]) and "Of another file" not in listed
     assert "assert 3 == 4" in listed and "not today" not in listed, "the source of the cited tests, and of those alone"
     assert "checked by" not in html["index"].lower() and "test_one_is_one" not in html["index"], "marks say it"
 
@@ -163,6 +187,26 @@ def test_without_a_run_of_the_tests_on_this_very_code_a_mark_says_so(book):
     write(book, {"tests/test_a.py": TESTS.format(three="1 + 2")})
     html, complaints = build(book)
     assert (words(marks_of(html["index"])), complaints) == (not_run, "")
+
+
+def test_the_overview_leads_to_the_slow_tests_the_slowest_first(book):
+    record(book, Report("tests/test_a.py::test_one_is_one[1]", "passed", 4.0)).pytest_sessionfinish()
+    record(book, Report("tests/test_b.py::test_of_another_file", "passed", 7.4)).pytest_sessionfinish()
+    record(book, Report("tests/test_a.py::test_two_is_two", "passed", 2.9)).pytest_sessionfinish()
+    html, complaints = build(book)
+    assert complaints == ""
+    found = re.findall(r'<a [^>]*href="([^"]+)"[^>]*>([^<]+)</a>(, \d+ s)', html["tests_page"])
+    assert [(text, took) for _, text, took in found] == [("Of another file", ", 7 s"), ("One is one", ", 4 s")]
+    for link, _, _ in found:
+        page, anchor = link.split(".html#")
+        assert f'id="{anchor}"' in html[page]
+
+
+def test_a_file_of_tests_on_no_page_or_on_two_fails_the_build(book):
+    write(book, {"tests/test_c.py": REST, "tests_page/rest.md": REST_PAGE.replace("    b", "    b a")})
+    complaints = build(book)[1]
+    assert "tests/test_c.py stands on no page of tests" in complaints
+    assert "tests/test_a.py stands on two pages of tests: tests_page/rest and tests_page/whole" in complaints
 
 
 def test_an_equation_without_a_test_fails_the_build(book):

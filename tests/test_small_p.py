@@ -7,7 +7,7 @@ import pytest
 
 from book.studies import small_p
 from book.studies.accuracy import CURVES
-from duffing import ConvergenceError, lyapunov_spectrum, paper, trajectory
+from duffing import ConvergenceError, lyapunov_spectrum, paper, poincare_section, trajectory
 
 
 def test_chaos_is_summed_up_by_the_statistics_of_its_positive_runs():
@@ -70,3 +70,22 @@ def test_the_range_of_chaos_counts_forcings_and_the_exceptions_among_them():
     exponents = np.where(np.arange(4)[:, None] < 4 * part, 0.1, -0.1)
     found = small_p.chaotic_range(np.arange(6.0), exponents)
     assert found == (1.0, 4.0, 2.0, 4.0, 2, 1, 0.5)
+
+
+def test_inside_the_window_of_chaos_an_orbit_of_period_nine_attracts():
+    assert small_p.longest_period(0.273) == 9
+    points = poincare_section(replace(paper.OSCILLATOR, mu=0.273), paper.START, 10, transient=1500)
+    apart = np.linalg.norm(points[:, 1:] - points[:, :1], axis=0)
+    assert apart[8] < 1e-6 and apart[:8].min() > 1e-3
+
+
+def test_one_initial_condition_lies_in_the_basin_of_the_large_orbit_throughout_the_window():
+    mu, exponents = small_p.window(step=0.01)
+    row = np.ptp(exponents, axis=1).argmin()
+    family = replace(paper.OSCILLATOR, mu=mu)
+    start = np.repeat(small_p.starts()[:, row, None], mu.size, axis=1)
+    x = poincare_section(family, start, 2, transient=400)
+    np.testing.assert_allclose(x[:, 0], x[:, 1], atol=1e-8)
+    swing = trajectory(family, x[:, -1], family.period * np.arange(401) / 400)[0]
+    assert np.all(np.ptp(swing, axis=0) / 2 > 1.5)
+    np.testing.assert_allclose(exponents[row], exponents[row].mean(), rtol=0.1)

@@ -14,15 +14,15 @@ MARKERS = ("o", "s", "^", "D", "v")
 
 
 @styled
-def basin_pictures(cases, names, columns=3):
+def basin_pictures(cases, names, columns=2):
     """Basins side by side. names (k,) : of the kinds, whose colours are KIND_COLOURS.
 
     cases : of each panel (title, x (nx,), v (nv,), kinds (nv, nx), points, curves): the attractors' stroboscopic points
-        (a list of (2, n)) as white dots, and curves (a list of (2, n)) in black
+        (a list of (2, n)) as white dots, and curves (a list of (2, n)) in black; each panel has its own frame
     """
     rows = -(-len(cases) // columns)
     fig = PageFigure(figsize=(3.0 * columns + 0.6, 2.6 * rows + 0.9))
-    panels = fig.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    panels = fig.subplots(rows, columns, squeeze=False)
     seen = set()
     for axes, (title, x, v, kinds, points, curves) in zip(panels.flat, cases, strict=False):
         _image(axes, x, v, kinds, KIND_COLOURS)
@@ -75,7 +75,7 @@ def uncertain_part(curves):
 def boundary_dimension(lines, random, contact, near=(0.985, 1.025)):
     """D against mu/mu_c, near one and as a whole: lines and random are dicts p -> (ratio (n,), D (n,), error (n,)),
     drawn as lines with filled and as open markers; contact : dict p -> a ratio, a vertical line each."""
-    fig = PageFigure(figsize=(7.4, 3.9))
+    fig = PageFigure(figsize=(7.4, 4.4))
     panels = fig.subplots(1, 2, sharey=True)
     for axes, part in zip(panels, (near, (0.45, None)), strict=True):
         axes.axhline(1, color=GREY, linewidth=0.8)
@@ -90,7 +90,7 @@ def boundary_dimension(lines, random, contact, near=(0.985, 1.025)):
         axes.set(xlim=part, ylim=(0.9, 2.0))
     panels[0].set_ylabel("dimension $D$ of the boundary")
     fig.supxlabel(r"forcing amplitude over the critical one, $\mu/\mu_c$", fontsize=11)
-    panels[1].legend(loc="lower right")
+    fig.legend(*panels[1].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return fig
 
 

@@ -33,7 +33,7 @@ def draw_branch(axes, parameter, value, stable, **look):
 def draw_marks(axes, marks):
     """Folds as open circles, flips as open triangles."""
     for kind, parameter, value in marks:
-        look = {"color": BLACK, "fillstyle": "none", "markersize": 5, "zorder": 5}
+        look = {"color": BLACK, "fillstyle": "none", "markersize": 4, "zorder": 5}
         axes.plot(parameter, value, MARKER[kind], linestyle="none", label=kind, **look)
 
 
@@ -75,7 +75,7 @@ def overlay(cases):
     fig = PageFigure(figsize=(7.2, (3.6 if columns == 1 else 3.2) * rows))
     panels = fig.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     labels = {"many starts": "eight initial conditions"}
-    looks = {"many starts": (GREY, ".", 3), "forward sweep": (BLACK, ">", 2.5), "backward sweep": (BLACK, "<", 2.5)}
+    looks = {"many starts": (GREY, "o", 1.8), "forward sweep": (BLACK, ">", 3.5), "backward sweep": (BLACK, "<", 3.5)}
     for axes, (p, (brute, branches)) in zip(panels, cases.items(), strict=True):
         for name, mu, value, stable in branches:
             draw_branch(axes, mu, value, stable, color=colour_of(name), label=label_of(name))
@@ -90,7 +90,7 @@ def overlay(cases):
     low, high = (f([f(mu) for mu, _ in brute.values()]) for f in (np.min, np.max))
     for axes in panels[-columns:]:
         axes.set(xlabel=MU, xlim=(low, high))
-    legend_above(fig, panels[0])
+    legend_above(fig, panels[0], markerscale=2)
     return fig
 
 
@@ -109,12 +109,12 @@ def loci(curves, p, mu_c, p_touch, tangency, mu_last=0.3):
     return fig
 
 
-def legend_above(fig, axes):
+def legend_above(fig, axes, **look):
     """Above the panels, each label once, by the first thing drawn under it: of a branch, the thick line."""
     labels = {}
     for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
         labels.setdefault(label, handle)
-    fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3)
+    fig.legend(labels.values(), labels.keys(), loc="outside upper center", ncols=3, **look)
 
 
 @styled
@@ -147,6 +147,6 @@ def accumulations(over_p, over_alpha, over_omega):
     for axes, name in zip(panels, names, strict=True):
         axes.axhline(1, color=GREY, linewidth=0.9)
         axes.set_xlabel(name)
-    fig.supylabel(r"$\mu_A / \mu_c$", fontsize=10)
+    panels[0].set_ylabel(r"$\mu_A / \mu_c$")
     panels[1].legend()
     return fig

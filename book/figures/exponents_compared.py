@@ -3,7 +3,7 @@
 import numpy as np
 
 from .bifurcations import MU
-from .style import PageFigure, line_of, panel, styled
+from .style import PageFigure, line_of, styled
 
 MARKERS = ("o", "s", "^", "D")
 
@@ -15,8 +15,8 @@ def exponents_compared(curves):
     curves : dict p -> (mu, ratio, energy, spread, exponent, error, lasts): spread the error of the energy, lasts a
         boolean array: filled markers
     """
-    fig = PageFigure(figsize=(6.8, 3.7))
-    panels = fig.subplots(1, 3, sharey=True)
+    fig = PageFigure(figsize=(6.8, 7.6))
+    panels = fig.subplots(3, 1, sharey=True)
     for (p, (*across, spread, exponent, error, lasts)), marker in zip(curves.items(), MARKERS, strict=False):
         look = line_of(p)
         for axes, x in zip(panels, across, strict=True):
@@ -29,19 +29,23 @@ def exponents_compared(curves):
                 axes.plot(
                     x[part], exponent[part], marker, color=look["color"], fillstyle=fill, markersize=4, label=label
                 )
-    for axes, name in zip(panels, (r"$\mu$", r"$\mu/\mu_c$", "energy taken per period"), strict=True):
-        axes.set_xlabel(name)
-    panels[0].set_ylabel(r"$\lambda_1$ (per unit time)")
+    names = (MU, r"forcing amplitude over the critical one, $\mu/\mu_c$", "energy taken per period (dimensionless)")
+    for axes, name in zip(panels, names, strict=True):
+        axes.set(xlabel=name, ylabel=r"$\lambda_1$ (per unit time)")
     fig.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     return fig
 
 
 @styled
 def strong_forcing(shares):
-    """Share of chaotic starts against mu up to strong forcing: dict p -> (mu, share)."""
-    fig, axes = panel(MU, "fraction of initial conditions", figsize=(6.8, 3.6))
-    for (p, (mu, share)), marker in zip(shares.items(), MARKERS, strict=False):
-        axes.plot(mu, share, marker=marker, markersize=3.5, linewidth=1.2, **{**line_of(p), "linestyle": "-"})
-    axes.set_ylim(-0.03, 1.03)
-    fig.legend(loc="outside upper center", ncols=4)
+    """Share of chaotic starts against mu up to strong forcing, a panel for each p: dict p -> (mu, share)."""
+    fig = PageFigure(figsize=(6.8, 1.0 * len(shares) + 0.6))
+    panels = fig.subplots(len(shares), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    for axes, (p, (mu, share)), marker in zip(panels, shares.items(), MARKERS, strict=False):
+        look = line_of(p)
+        axes.plot(mu, share, marker=marker, markersize=4, linewidth=1.2, clip_on=False, color=look["color"])
+        axes.set(ylim=(0, 1), yticks=(0, 0.5, 1))
+        axes.set_title(look["label"], fontsize=10, loc="left", pad=3)
+    panels[-1].set_xlabel(MU)
+    fig.supylabel("fraction of initial conditions", fontsize=11)
     return fig

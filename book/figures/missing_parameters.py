@@ -1,6 +1,7 @@
 """Which (alpha, omega) the text leaves, and the paper's Figs. 3b to 6 for the likeliest: arrays in, a figure out."""
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from .style import BLACK, BLUE, GREY, STEADY, TRANSIENT, VERMILION, PageFigure, line_of, styled
 
@@ -57,10 +58,12 @@ def ensembles(pairs, chaotic, regular, printed):
 
 
 def _columns(pairs, rows, height):
-    fig = PageFigure(figsize=(3.2 * len(pairs), height * rows + 0.8))
+    fig = PageFigure(figsize=(2.5 * len(pairs), height * rows + 0.8))
     axes = fig.subplots(rows, len(pairs), squeeze=False, sharex="row", sharey="row")
     for top, name in zip(axes[0], pairs, strict=True):
         top.set_title(name, fontsize=10)
+    for panel in axes.flat:
+        panel.xaxis.set_major_locator(MaxNLocator(4, steps=(1, 2, 5, 10), prune="both"))
     return fig, axes
 
 
@@ -102,7 +105,7 @@ def exponents_beside(pairs, mu, exponents, thresholds):
     for panel in axes[-1]:
         panel.set_xlabel(r"forcing amplitude $\mu$")
     named = {label: line for row in axes for line, label in zip(*row[0].get_legend_handles_labels(), strict=True)}
-    fig.legend(named.values(), named.keys(), loc="outside upper center", ncols=4)
+    fig.legend(named.values(), named.keys(), loc="outside upper center", ncols=2)
     return fig
 
 
@@ -119,7 +122,7 @@ def portraits_beside(pairs, motions):
                     panel.plot(*points, "o", color=dot, markersize=2.2)
         row[0].set_ylabel(f"{title}\nvelocity $v$")
     for panel in axes[-1]:
-        panel.set_xlabel("displacement $x$ (dimensionless)")
+        panel.set_xlabel("displacement $x$")
     return fig
 
 

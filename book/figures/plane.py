@@ -36,6 +36,7 @@ def regions(panels, adopted):
         axes.axvline(adopted[field], color=ORANGE, linewidth=0.9)
         axes.set(title=title, xlabel=NAMES[field], xlim=(min(x), max(x)), ylim=(min(mu), max(mu)))
         axes.xaxis.label.set_size(9.5)
+        axes.grid(False)
     for axes in every[:, 0]:
         axes.set_ylabel(FORCING)
     fig.colorbar(image, ax=every.ravel().tolist(), shrink=0.5, label="fraction of initial conditions in lasting chaos")
@@ -73,18 +74,19 @@ def pairs(found):
 
     found : dict (alpha, omega) -> dict p -> (mu, across, inside, critical): shares between the wells and inside one
     """
-    fig = PageFigure(figsize=(6.8, 1.15 * len(found) + 0.9))
+    fig = PageFigure(figsize=(6.8, 1.2 * len(found) + 0.9))
     panels = fig.subplots(len(found), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, ((alpha, omega), parts) in zip(panels, found.items(), strict=True):
         for row, (p, (mu, across, inside, critical)) in enumerate(reversed(parts.items())):
-            colour, base = line_of(p)["color"], 1.2 * row
+            colour, base = line_of(p)["color"], 1.4 * row
             axes.fill_between(mu, base, base + across, step="mid", color=colour, linewidth=0, label=f"$p = {p:g}$")
             seen = inside > 0
             axes.plot(mu[seen], base + inside[seen], "^", color=colour, markersize=5, fillstyle="none")
             axes.plot([critical, critical], [base, base + 1], color=colour, linestyle=":", linewidth=1.8)
         axes.set_title(rf"$\alpha = {alpha:g}$, $\omega = {omega:g}$", fontsize=9.5, pad=3)
-        axes.set(ylim=(-0.06, 2.3), yticks=(0, 1, 1.2, 2.2), yticklabels=("0", "1", "0", "1"))
-        axes.tick_params(axis="y", labelsize=7)
+        axes.set(ylim=(-0.06, 2.5), yticks=(0, 1, 1.4, 2.4), yticklabels=("0", "1", "0", "1"))
+        axes.tick_params(axis="y", labelsize=8)
+        axes.set_axisbelow(True)
     panels[-1].set_xlabel(FORCING)
     fig.supylabel("fraction of initial conditions", fontsize=9.5)
     fig.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)

@@ -27,7 +27,7 @@ def large_orbit(mu, cases, thresholds, omega_range):
     left.set_title(rf"$\mu = {mu:g}$", fontsize=10)
     left.set(xlabel=OMEGA, ylabel="half the range of $x$ (dimensionless)", xlim=omega_range)
     for p, (omega, least, *_) in thresholds.items():
-        right.plot(omega, least, **line_of(p))
+        right.plot(omega, least, **line_of(p) | {"linestyle": "-"})  # as on the left: dashes are unstable orbits
     right.set(xlabel=OMEGA, ylabel=r"least $\mu$ (dimensionless)", xlim=omega_range, ylim=(0, 0.4))
     for axes in (left, right):
         axes.xaxis.label.set_size(9.5)

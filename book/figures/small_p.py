@@ -48,7 +48,8 @@ def dry_limit(p, exponents, mu):
     axes.axhline(0, color=GREY, linewidth=0.8)
     looks = zip(cycle((BLACK, GREY, GREEN, PURPLE)), cycle(("o", "s", "D", "^", "v")), strict=False)  # 20 in all
     for value, column, (colour, marker) in zip(mu, exponents.T, looks, strict=False):
-        axes.semilogx(p, column, marker=marker, color=colour, label=rf"$\mu = {value:g}$")
+        joined = "-" if np.ptp(np.sign(column)) == 0 else "none"  # no line from regular to chaotic motion
+        axes.semilogx(p, column, linestyle=joined, marker=marker, color=colour, label=rf"$\mu = {value:g}$")
     axes.set_xticks(p, [f"{value:g}" for value in p])
     axes.minorticks_off()
     axes.legend()

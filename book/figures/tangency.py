@@ -3,15 +3,18 @@
 from itertools import cycle
 
 import numpy as np
+from matplotlib.ticker import FixedLocator, NullLocator
 
 from .paper import draw_manifolds
 from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, PageFigure, line_of, panel, styled
+
+SHOWN = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4)  # ticks of a logarithmic axis of less than two decades
 
 
 @styled
 def collapse(phase, curves, theory):
     """Scaled splitting against the phase for several alpha (dict alpha -> array), and its difference from theory."""
-    fig = PageFigure(figsize=(8.6, 3.8))
+    fig = PageFigure(figsize=(7.6, 3.8))
     whole, rest = fig.subplots(1, 2)
     whole.plot(phase, theory, color=BLACK, linewidth=2.4, label=r"$\mathrm{M}(t_0)/\alpha$")
     looks = zip(
@@ -90,6 +93,9 @@ def frontier(p, alpha, ratio, marked):
     axes.clabel(lines, fontsize=9)
     axes.plot(*marked, "o", color="white", markeredgecolor=BLACK, markersize=9)
     axes.set_yscale("log")
+    axes.yaxis.set_major_locator(FixedLocator([each for each in SHOWN if alpha[0] <= each <= alpha[-1]]))
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.grid(False)
     fig.colorbar(filled, label=r"sticking amplitude$\,/\,\mu_c$")
     return fig
@@ -98,7 +104,7 @@ def frontier(p, alpha, ratio, marked):
 @styled
 def parting(t, x, x_s, phase, splittings):
     """Two orbits that turn just below and just above x_s, x (len(t), 2), and the splitting (dict fraction -> array)."""
-    fig = PageFigure(figsize=(8.6, 3.6))
+    fig = PageFigure(figsize=(7.6, 3.6))
     left, right = fig.subplots(1, 2)
     left.axhline(0, color=GREY, linewidth=0.8)
     for path, colour, dash, label in zip(

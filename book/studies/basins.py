@@ -28,6 +28,7 @@ AXIS = ((-1.5, 0.0), (1.5, 0.0))  # the line v = 0 whose crossings with the boun
 STEPS = 128  # Runge-Kutta steps a period for p >= 1
 SECTION_PERIODS = 120
 PICTURES = (0.9, 1.1, 2.0)  # mu / mu_c of the pictures at p = 1
+ENLARGED = ((0.05, 0.6), (-1.05, -0.55))  # a part of FRAME in which the stripes at 1.1 are seen
 RATIOS = {
     1.0: (0.5, 0.9, 0.99, 0.9995, 1.0005, 1.005, 1.01, 1.02, 1.1, 1.2, 1.5, 2.0),
     0.5: (0.9, 0.987, 0.994, 0.998, 1.003, 1.01, 1.02, 1.1, 1.2, 1.5),
@@ -48,10 +49,10 @@ def oscillator(p, ratio=None, mu=None):
 
 
 @remembered
-def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, **sweep):
-    """Basins of size x size starts in FRAME, at ratio times mu_c or at mu; sweep : how, as for `basins`."""
+def picture(p, ratio=None, mu=None, size=512, periods=200, steps=STEPS, frame=FRAME, **sweep):
+    """Basins of size x size starts in the frame (x, v), at ratio times mu_c or at mu; sweep : how, as for `basins`."""
     osc, options = oscillator(p, ratio, mu), integrator(p, steps_per_period=steps)
-    x, v = (np.linspace(*ends, size) for ends in FRAME)
+    x, v = (np.linspace(*ends, size) for ends in frame)
     # Starts of a coarser grid than by default: a small attractor that they miss is met by the picture's own starts.
     starts = np.reshape(np.meshgrid(x[:: size // 8], v[:: size // 8]), (2, -1))
     return basins(osc, x, v, find_attractors(osc, starts, periods=120, **options), periods, **sweep, **options)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from duffing import checks, paper
+from duffing.basins.attractors import find_attractors
 from duffing.errors import ConvergenceError
 from duffing.flow import integrate
 from duffing.lyapunov import lyapunov_spectrum, two_trajectory_exponent
@@ -41,6 +42,12 @@ def window(columns=8, rows=4, step=0.001, first=0.255, last=0.285, periods=199, 
     family = replace(osc, mu=np.tile(mu, (state.shape[1], 1)))
     state = np.repeat(state[:, :, None], mu.size, axis=2)
     return mu, lyapunov_spectrum(family, state, periods, 40, k=1, **CURVES).exponents[0]
+
+
+@remembered
+def longest_period(mu, periods=600, osc=paper.OSCILLATOR):
+    """The longest period, in forcing periods, of the attracting orbits that the starts of `window` reach at mu."""
+    return max(one.period for one in find_attractors(replace(osc, mu=mu), starts(osc=osc), periods))
 
 
 class ChaoticRange(NamedTuple):
