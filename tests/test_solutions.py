@@ -1,5 +1,6 @@
 """The solutions of the exercises: every cell runs, with its assertions, and no list of exercises is without them."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -30,10 +31,16 @@ def exercises(chapter):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_the_cells_of_a_solution_run_and_their_assertions_hold(page, monkeypatch):
+    """What a cell shows is mathematics; other values are glued into sentences and tables, where they are typeset."""
     monkeypatch.chdir(CHAPTERS)  # where the book runs them
     namespace = {"__name__": "solution"}
     for source in cells(page):
-        exec(compile(source, f"solutions/{page}", "exec"), namespace)
+        tree = ast.parse(source)
+        last = [tree.body.pop().value] if isinstance(tree.body[-1], ast.Expr) else []
+        exec(compile(tree, f"solutions/{page}", "exec"), namespace)
+        for expression in last:
+            shown = eval(compile(ast.Expression(expression), f"solutions/{page}", "eval"), namespace)
+            assert shown is None or hasattr(shown, "_repr_latex_"), f"{shown!r} is not typeset: glue it into a sentence"
 
 
 @pytest.mark.parametrize("page", PAGES)
