@@ -3,7 +3,7 @@
 import numpy as np
 
 from .bifurcations import MU
-from .style import BLACK, BLUE, GREY, VERMILION, line_of, panel, styled
+from .style import BLUE, GREY, VERMILION, PageFigure, line_of, panel, styled
 
 
 @styled
@@ -36,16 +36,16 @@ def edge_distances(distances):
 
 @styled
 def order_of_events(p, critical, folds, crises):
-    """The critical amplitude, the fold of the small orbits and the crisis against p; lasting chaos shaded."""
-    fig, axes = panel("damping exponent $p$", MU, figsize=(6.8, 4.2))
-    axes.plot(p, critical, color=GREY, linewidth=2.0, label=r"critical amplitude $\mu_c$, Eq. 13")
-    axes.plot(p, folds, "o--", color=BLUE, markersize=4, label="fold of S")
-    axes.plot(p, crises, "s-", color=VERMILION, markersize=4, label="crisis: chaos reaches the basin of L")
-    axes.fill_between(p, folds, crises, where=crises > folds, color=VERMILION, alpha=0.2, interpolate=True, linewidth=0)
-    inset = axes.inset_axes((0.42, 0.36, 0.55, 0.3))
-    inset.axhline(0, color=GREY, linewidth=0.8)
-    inset.plot(p, crises - folds, "D-", color=BLACK, markersize=3)
-    inset.set_title("crisis less fold", fontsize=9)
-    axes.set(xlim=(0, None), ylim=(0, None))
-    axes.legend(loc="lower left", fontsize=9)
+    """The fold of the small orbits and the crisis against p, lasting chaos shaded; below beside mu_c."""
+    fig = PageFigure(figsize=(6.8, 5.4))
+    near, whole = fig.subplots(2, 1, sharex=True)
+    whole.plot(p, critical, color=GREY, linewidth=2.0, label=r"critical amplitude $\mu_c$, Eq. 13")
+    for axes in (near, whole):
+        axes.plot(p, folds, "o--", color=BLUE, markersize=4, label="fold of S")
+        axes.plot(p, crises, "s-", color=VERMILION, markersize=4, label="crisis: chaos reaches the basin of L")
+        lasts = {"where": crises > folds, "interpolate": True}
+        axes.fill_between(p, folds, crises, color=VERMILION, alpha=0.2, linewidth=0, **lasts)
+    whole.set(xlabel="damping exponent $p$", xlim=(0, None), ylim=(0, None))
+    fig.supylabel(MU, fontsize=11)
+    fig.legend(*whole.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return fig
