@@ -1,10 +1,11 @@
 """Runs the core of the tests and a small book as strangers would run them, and prints a table: make elsewhere
 
 python tools/elsewhere.py [name ...] [--tests FILE ...]     only environments whose name holds one of the words; only
-these tests instead of all that are not slow
+these tests instead of those of `make check`
 
-All happens in a copy of the checkout, in a temporary folder. What cannot be had here (another user without being
-root, another Python) is listed with the reason; the chapters' notebooks run beside an installed wheel besides.
+Every environment runs what `make check` runs, in one copy of the checkout in a temporary folder. The last one runs
+every chapter as a downloaded notebook beside an installed wheel. What cannot be had here (another user without being
+root, another Python) is listed with the reason.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import sys
 import tempfile
 import time
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -24,9 +26,11 @@ from typing import NamedTuple
 ROOT = Path(__file__).parents[1]
 NOBODY = 65534
 PATIENCE = 3600  # seconds for one command
+LINES = 60  # of what a failing command said
 BOOK = "import sys; sys.path.append('tests'); import small_book; from pathlib import Path; root = Path(sys.argv[1]);"
 BOOK += "code, said = small_book.build(small_book.make(root, real=True)); print(said); sys.exit(code)"
-NOTEBOOKS = ("model", "speed")  # chapters that run as downloads, beside an installed package
+# What `make check` runs.
+CORE = ("--numprocesses=2", "--dist=loadfile", "-m", "not slow")
 NOTEBOOK = "import jupytext, sys; from nbclient import NotebookClient;"
 NOTEBOOK += "NotebookClient(jupytext.read(sys.argv[1]), timeout=1200, kernel_name='python3').execute()"
 PERSONAL = "savefig.bbox: tight\nfigure.dpi: 37\ntext.usetex: True\nbackend: tkagg\n"
@@ -84,12 +88,19 @@ def personal(home):
     }
 
 
-def may_run(user):
-    """Whether another user may run this Python: an interpreter below a private home is of no use to him."""
+def is_root():
+    return hasattr(os, "getuid") and os.getuid() == 0
+
+
+def needs_another_user():
+    """Why there is none: "" if there is one. An interpreter below a private home is of no use to another user."""
+    if not is_root():
+        return "needs root"
     try:
-        return subprocess.run([sys.executable, "-c", ""], user=user, capture_output=True, cwd="/").returncode == 0
-    except OSError:
-        return False
+        subprocess.run([sys.executable, "-c", ""], user=NOBODY, group=NOBODY, capture_output=True, cwd="/", check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return "needs a Python that others may run"
+    return ""
 
 
 def one_processor():
@@ -98,8 +109,6 @@ def one_processor():
 
 def places(folder):
     """All environments that are tried, in the order of the table."""
-    root = hasattr(os, "getuid") and os.getuid() == 0
-    nobody = "" if root and may_run(NOBODY) else "needs root, and a Python that others may run"
     unshared = (
         shutil.which("unshare") and subprocess.run(["unshare", "-rn", "true"], capture_output=True).returncode == 0
     )
@@ -107,7 +116,7 @@ def places(folder):
     return [
         Place("as it is"),
         Place("HOME not writable", {"HOME": "/proc/nope", "MPLCONFIGDIR": "/proc/nope"}),
-        Place("another user, HOME not writable", {"HOME": "/proc/nope"}, user=NOBODY, missing=nobody),
+        Place("another user, HOME not writable", {"HOME": "/proc/nope"}, user=NOBODY, missing=needs_another_user()),
         Place("empty settings", {"HOME": str(folder / "empty")}),
         Place("personal settings", personal(folder / "personal")),
         Place("SIGINT ignored", before=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)),
@@ -152,13 +161,13 @@ def pythons():
 
 
 def both(python, place, checkout, tests, book):
-    """The tests and the small book in one environment."""
+    """The tests and the small book in one environment: dict name -> (whether it went well, what it said)."""
     shutil.rmtree(checkout / "_build", ignore_errors=True)
     shutil.rmtree(book, ignore_errors=True)
-    return [
-        run([python, "-m", "pytest", "-p", "no:cacheprovider", *tests], place, checkout),
-        run([python, "-c", BOOK, str(book)], place, checkout),
-    ]
+    return {
+        "tests": run([python, "-m", "pytest", "-p", "no:cacheprovider", *tests], place, checkout),
+        "book": run([python, "-c", BOOK, str(book)], place, checkout),
+    }
 
 
 def in_another_python(python, checkout, tests, folder):
@@ -171,64 +180,66 @@ def in_another_python(python, checkout, tests, folder):
     ):
         ok, said = run(command, Place(""), checkout)
         if not ok:
-            return [(False, said)]
+            return {"installation": (False, said)}
     results = both(new, Place(""), checkout, tests, folder / "book")
     shutil.rmtree(own)
     return results
 
 
 def beside_a_wheel(checkout, folder):
-    """Downloaded notebooks in an empty folder, with a wheel installed where nobody may write and no home."""
-    site, empty = folder / "site", folder / "downloads"
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    """Every chapter as a downloaded notebook in an empty folder, with a wheel installed where nobody may write and no
+    home. Jupyter, IPython and Matplotlib have folders of their own: Jupyter cannot start a kernel without."""
+    site, wheels = folder / "site", folder / "wheels"
     for command in (
-        [*pip, "wheel", "--no-deps", "-w", str(folder / "wheel"), "."],
-        [*pip, "install", "--no-deps", "--target", str(site), "--find-links", str(folder / "wheel"), "duffing"],
+        f"wheel --wheel-dir={wheels} .",
+        f"install --no-index --find-links={wheels} --target={site} duffing",
     ):
-        ok, said = run(command, Place(""), checkout)
+        pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+        ok, said = run([*pip, *command.split(), "--no-deps"], Place(""), checkout)
         if not ok:
-            return [(False, said)]
+            return {"installation": (False, said)}
     for path in [site, *site.rglob("*")]:
         path.chmod(path.stat().st_mode & ~0o222)
-    user = NOBODY if hasattr(os, "getuid") and os.getuid() == 0 and may_run(NOBODY) else None
-    variables = {"PYTHONPATH": str(site), "HOME": "/proc/nope", "PYTHONDONTWRITEBYTECODE": "1"}
+    variables = {"PYTHONPATH": str(site), "HOME": "/proc/nope"}
     for name in ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_DATA_DIR", "JUPYTER_CONFIG_DIR", "MPLCONFIGDIR"):
         (folder / "tools" / name).mkdir(parents=True, exist_ok=True)
         (folder / "tools" / name).chmod(0o777)
         variables[name] = str(folder / "tools" / name)
-    results = []
-    for chapter in NOTEBOOKS:
-        shutil.rmtree(empty, ignore_errors=True)
-        empty.mkdir()
+    place = Place("", variables, user=NOBODY if is_root() else None)
+
+    def downloaded(page):
+        empty = Path(tempfile.mkdtemp(dir=folder))
         empty.chmod(0o777)
-        shutil.copy(checkout / "chapters" / f"{chapter}.md", empty)
-        results.append(run([sys.executable, "-c", NOTEBOOK, f"{chapter}.md"], Place("", variables, user=user), empty))
-    return results
+        shutil.copy(page, empty)
+        return run([sys.executable, "-c", NOTEBOOK, page.name], place, empty)
+
+    pages = {page.relative_to(checkout / "chapters").as_posix(): page for page in (checkout / "chapters").rglob("*.md")}
+    notebooks = {name: page for name, page in pages.items() if "{code-cell}" in page.read_text(encoding="utf-8")}
+    with ThreadPoolExecutor(2) as two:
+        return dict(zip(notebooks, two.map(downloaded, notebooks.values()), strict=True))
 
 
 def rows(folder, checkout, tests):
-    """(name, what is missing, a function that runs all there, to (went well, said) twice) of each environment."""
+    """(name, what is missing, a function that runs all there, as `both`) of each environment."""
     for place in places(folder):
         yield place.name, place.missing, partial(both, sys.executable, place, checkout, tests, folder / "book")
     for version, python in pythons().items():
         missing = "" if python else "not installed here"
         yield f"Python {version}", missing, partial(in_another_python, python, checkout, tests, folder)
-    yield "notebooks beside a wheel", "", partial(beside_a_wheel, checkout, folder)
+    missing = needs_another_user() if is_root() else ""  # nothing is read-only for root
+    yield "downloads beside a wheel", missing, partial(beside_a_wheel, checkout, folder)
 
 
 def main():
     options = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     options.add_argument("names", nargs="*", help="words of the names of the environments")
-    options.add_argument(
-        "--tests", nargs="+", default=["-m", "not slow"], help="tests instead of all that are not slow"
-    )
+    options.add_argument("--tests", nargs="+", default=CORE, help="tests instead of those of `make check`")
     given, failed = options.parse_args(), []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         folder.chmod(0o777)
         (folder / "checkout").mkdir()
         checkout = copied(folder / "checkout")
-        print(f"{'where':34} {'tests':8} {'book':8}")
         for name, missing, run_all in rows(folder, checkout, given.tests):
             if given.names and not any(word in name for word in given.names):
                 continue
@@ -237,11 +248,13 @@ def main():
                 continue
             start = time.monotonic()
             results = run_all()
-            words = "".join(f"{'passed' if well else 'FAILED':9}" for well, _ in results)
-            print(f"{name:34} {words:18} {time.monotonic() - start:5.0f} s", flush=True)
-            for said in [said for well, said in results if not well]:
+            bad = {what: said for what, (well, said) in results.items() if not well}
+            words = f"failed: {', '.join(bad)}" if bad else "passed"
+            print(f"{name:34} {len(results) - len(bad)} of {len(results)} {words}", end="")
+            print(f" {time.monotonic() - start:5.0f} s", flush=True)
+            for what, said in bad.items():
                 failed.append(name)
-                print("    " + "\n    ".join(said.rstrip().splitlines()[-40:]), flush=True)
+                print(f"  {what}:\n    " + "\n    ".join(said.rstrip().splitlines()[-LINES:]), flush=True)
     sys.exit(f"failed: {', '.join(dict.fromkeys(failed))}" if failed else None)
 
 

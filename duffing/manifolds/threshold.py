@@ -29,7 +29,8 @@ _MARGIN = 0.05  # the image is known to the first order in the distance of the l
 _FACTOR, _STEPS = 1.03, 30  # of mu from one trial to the next in search of a bracket
 _EXACT = {"xatol": 1e-14, "xrtol": 0, "fatol": 0, "frtol": 0}
 _TOLERANCE = {"xatol": 0, "xrtol": 1e-10, "fatol": 0, "frtol": 0}  # of the tangency
-_JUMP = 1e-6  # of mu, or of the period: what is beyond it on both sides of a root does not vanish there
+_JUMP = 1e-6  # of mu: a height beyond it on both sides of the root, 1e-10 mu apart, does not vanish there
+_SKIP = 1e-4  # of the period, likewise: rounding errors at low frequencies leave up to 1e-5 of it at a root
 
 
 def threshold(frame, phase, member):
@@ -92,7 +93,7 @@ def crossing(frame, phase, member):
     t = t + period * np.floor((launched(frame, np.zeros(phase.size), member).t - t) / period)
     found = elementwise.find_root(late, ends, args=(t, member), tolerances=_EXACT)
     # Where the mass comes to rest beyond x = 1 under a force that holds it there, the time of the crossing jumps.
-    crosses = found.success & (np.abs(found.f_x) <= _JUMP * period)
+    crosses = found.success & (np.abs(found.f_x) <= _SKIP * period)
     if not crosses.all():
         missing = np.argmin(crosses)
         raise ConvergenceError(

@@ -9,6 +9,7 @@ import pytest
 
 AXE = files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
 PHONE, DESK = 390, 1280
+PAPER = 841  # a line of the PDF (tools/pdf.py): A4 less its margins, at 80 per cent
 # Right edges beyond the screen, except inside a box that scrolls by itself.
 TOO_WIDE = """() => {
   const scrolls = element => element && (/auto|scroll|hidden/.test(getComputedStyle(element).overflowX)
@@ -48,6 +49,15 @@ def test_no_page_scrolls_sideways_on_a_telephone(visit):
     visit.look(width=PHONE)
     assert visit.value("document.documentElement.scrollWidth") == PHONE
     assert visit.value(TOO_WIDE) == []
+
+
+def test_no_table_is_wider_than_the_paper(visit):
+    visit.page.emulate_media(media="print")
+    visit.look(width=PAPER)
+    too_wide = "tables => tables.filter(t => t.offsetWidth > t.parentElement.clientWidth).map(t => t.textContent)"
+    found = visit.page.eval_on_selector_all(".bd-content table", too_wide)
+    visit.page.emulate_media(media="screen")
+    assert found == []
 
 
 @pytest.mark.parametrize(("width", "theme"), [(DESK, "light"), (PHONE, "light"), (DESK, "dark")])
