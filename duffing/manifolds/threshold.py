@@ -92,13 +92,13 @@ def crossing(frame, phase, member):
     t = phase / frame.osc.omega[member]
     t = t + period * np.floor((launched(frame, np.zeros(phase.size), member).t - t) / period)
     found = elementwise.find_root(late, ends, args=(t, member), tolerances=_EXACT)
-    # Where the mass comes to rest beyond x = 1 under a force that holds it there, the time of the crossing jumps.
+    # Where the mass comes to rest under a force that holds it there, no orbit turns for a while: the time jumps.
     crosses = found.success & (np.abs(found.f_x) <= _SKIP * period)
     if not crosses.all():
         missing = np.argmin(crosses)
         raise ConvergenceError(
             f"{frame.osc.named(member[missing])}: W^U has no first crossing of v = 0, x > 1 "
-            f"(dimensionless) at the phase {phase[missing]:g}"
+            f"(dimensionless) at the phase {phase[missing]:g}: orbits that leave the hump then come to rest in the well"
         )
     return launched(frame, found.x, member).x
 
