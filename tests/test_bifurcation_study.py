@@ -9,7 +9,7 @@ from book.studies import bifurcations as study
 from book.studies.followed import amplitude, at_exponent, curves, marks, orbits_at, side_by_side, speed, stroboscopic
 from duffing import ConvergenceError, Duffing, paper, poincare_section, saddle_orbit
 from duffing.orbits.bifurcations import FLIP, FOLD
-from duffing.orbits.periodic import half_return, periodic_orbit, periodic_orbits
+from duffing.orbits.periodic import half_period_map, periodic_orbit, periodic_orbits
 
 
 @pytest.fixture(scope="module")
@@ -85,7 +85,7 @@ def test_stability_claimed_by_the_branches_is_what_brute_force_does(branches):
                 stable = np.abs(orbit.multipliers[0]) < 1
                 cycles = 150 if stable else 12
                 late = poincare_section(one, orbit.state + 1e-4, 3 * cycles)[:, 3 * cycles - 1 :: -1]
-                own = half_return(one, orbit.state, 2 * halves).image  # the orbit's own point again
+                own = half_period_map(one, orbit.state, 2 * halves).image  # the orbit's own point again
                 period = 2 * halves // (1 if halves % 2 else 2)
                 apart = np.min(np.hypot(*(late[:, :period] - own)), axis=0)
                 assert (apart < 1e-4) == stable, (p, name, orbit.state)
@@ -144,7 +144,7 @@ def test_every_point_of_a_locus_is_degenerate():
     for curve in study.loci_in_p():
         halves = {"period 3": 3, "round both wells": 1, "in a well": 2}[curve.name.split(", ")[0]]
         sign = 1 if curve.name.endswith(FOLD) else -1
-        done = half_return(Duffing(p=curve.p, mu=curve.mu), curve.state, halves)
+        done = half_period_map(Duffing(p=curve.p, mu=curve.mu), curve.state, halves)
         np.testing.assert_allclose(done.image, curve.state, atol=1e-6)
         matrix = np.moveaxis(done.derivative, -1, 0) - sign * np.eye(2)
         assert np.all(np.abs(np.linalg.det(matrix)) < 1e-4)

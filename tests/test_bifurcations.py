@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from duffing import ConvergenceError, Duffing, poincare_section
 from duffing.orbits.bifurcations import FLIP, FOLD, bifurcation_curves, bifurcations, orbit_branches, switch_branches
-from duffing.orbits.periodic import half_return, periodic_orbit, periodic_orbits
+from duffing.orbits.periodic import half_period_map, periodic_orbit, periodic_orbits
 
 P = (0.1, 1.0)
 
@@ -46,7 +46,7 @@ def test_branch_in_frequency_of_a_linear_oscillator_is_its_response_curve():
 
 def test_every_point_of_a_branch_is_a_periodic_orbit_with_its_multipliers(in_well):
     for branch in in_well:
-        done = half_return(branch.osc, branch.state, branch.halves)
+        done = half_period_map(branch.osc, branch.state, branch.halves)
         np.testing.assert_allclose(done.image, branch.state, atol=1e-8)
         trace = done.derivative[0, 0] + done.derivative[1, 1]
         np.testing.assert_allclose(branch.multipliers.sum(axis=0), trace, atol=1e-9)
@@ -110,9 +110,9 @@ def test_at_a_period_doubling_the_multiplier_crosses_minus_1_and_a_doubled_orbit
         assert branch.halves == 4
         assert branch.parameter[0] > flip.osc.mu  # supercritical: it exists where the single orbit is unstable ...
         assert branch.stable[0]  # ... and attracts
-        once = half_return(branch.osc, branch.state, 2).image
+        once = half_period_map(branch.osc, branch.state, 2).image
         assert np.all(np.hypot(*(once - branch.state)) > 1e-3)  # not the single orbit twice
-        np.testing.assert_allclose(half_return(branch.osc, branch.state, 4).image, branch.state, atol=1e-8)
+        np.testing.assert_allclose(half_period_map(branch.osc, branch.state, 4).image, branch.state, atol=1e-8)
 
 
 def test_brute_force_finds_the_doubled_orbit_beyond_the_period_doubling(found):
@@ -131,11 +131,11 @@ def test_flip_of_the_half_map_breaks_the_symmetry():
     (branch,) = orbit_branches(osc, late, 1, field="omega", bounds=(0.5, 1.1), direction=-1)
     (flip,) = bifurcations([branch])[0]
     assert flip.kind == FLIP
-    whole = half_return(flip.osc, flip.state, 2).derivative[:, :, 0]
+    whole = half_period_map(flip.osc, flip.state, 2).derivative[:, :, 0]
     np.testing.assert_allclose(whole @ flip.direction, flip.direction, atol=1e-6)
     (broken,) = switch_branches([flip], field="omega", bounds=(0.5, 1.1), points=5)
-    assert np.all(np.hypot(*(half_return(broken.osc, broken.state, 1).image - broken.state)) > 1e-3)
-    np.testing.assert_allclose(half_return(broken.osc, broken.state, 2).image, broken.state, atol=1e-8)
+    assert np.all(np.hypot(*(half_period_map(broken.osc, broken.state, 1).image - broken.state)) > 1e-3)
+    np.testing.assert_allclose(half_period_map(broken.osc, broken.state, 2).image, broken.state, atol=1e-8)
 
 
 def test_locus_in_the_cubic_stiffness_is_the_exact_scaling(found):

@@ -7,7 +7,7 @@ import pytest
 
 from book.studies import small_p
 from duffing import ConvergenceError, Duffing, saddle_orbit, trajectory
-from duffing.transients.crisis import beyond, crisis, crisis_above, edge_distance, large_saddle, saddles
+from duffing.transients.crisis import beyond, crisis, crisis_above, distance_to_basin_boundary, large_saddle, saddles
 from duffing.transients.lifetimes import both_wells, lifetimes
 
 LINEAR = Duffing(p=1.0, mu=np.array([0.242, 0.250]))  # one before the crisis at p = 1, one after it
@@ -46,7 +46,7 @@ def test_large_saddle_orbit_is_symmetric_closed_and_repels_across_its_border(fou
 
 
 def test_orbits_reach_the_large_orbit_exactly_where_the_distance_is_negative(found):
-    distance = edge_distance(LINEAR, found, points=300, **STEP)
+    distance = distance_to_basin_boundary(LINEAR, found, points=300, **STEP)
     assert distance[0] > 0 > distance[1]
     starts = small_p.starts(12, 8)
     family = Duffing(p=1.0, mu=np.repeat(LINEAR.mu, 96))
@@ -58,14 +58,16 @@ def test_orbits_reach_the_large_orbit_exactly_where_the_distance_is_negative(fou
 
 
 def test_a_finer_sample_of_the_manifold_comes_nearer(found):
-    coarse, fine = (edge_distance(LINEAR, found, points=n, **STEP) for n in (60, 600))
+    coarse, fine = (distance_to_basin_boundary(LINEAR, found, points=n, **STEP) for n in (60, 600))
     assert np.all(fine <= coarse + 1e-3)
     assert np.all(fine > coarse - 0.15)
 
 
 def test_the_paths_of_both_integrators_come_as_near(found):
     """Off by their errors after some periods of chaos, of which the coarse tip of the manifold has seen few."""
-    exact, step = (edge_distance(LINEAR, found, points=100, periods=9, **options) for options in ({}, STEP))
+    exact, step = (
+        distance_to_basin_boundary(LINEAR, found, points=100, periods=9, **options) for options in ({}, STEP)
+    )
     np.testing.assert_allclose(exact, step, atol=5e-3)
 
 
@@ -73,7 +75,7 @@ def test_crisis_lies_where_the_distance_changes_its_sign(found):
     osc = Duffing(p=np.array([1.0]))
     mu = crisis(osc, [0.242], [0.250], found.outer[:, :1], steps=3, points=200, **STEP)
     bracket = replace(osc, p=1.0, mu=mu[0] + 0.0005 * np.array([-1, 1]))  # a bracket of 0.008 in 2^3 parts
-    ends = edge_distance(bracket, saddles(bracket, found.outer[:, 0]), points=200, **STEP)
+    ends = distance_to_basin_boundary(bracket, saddles(bracket, found.outer[:, 0]), points=200, **STEP)
     assert ends[0] > 0 > ends[1]
 
 
@@ -83,9 +85,9 @@ def test_what_cannot_be_found_is_named(found):
     with pytest.raises(ConvergenceError, match=r"^mu from 0\.24 to 0\.243: distances .* are no bracket"):
         crisis(Duffing(p=np.array([1.0])), [0.240], [0.243], found.outer[:, :1], steps=1, points=100, **STEP)
     with pytest.raises(ConvergenceError, match=r"^mu = 0\.242: no point comes within"):
-        edge_distance(LINEAR, found, points=20, periods=1, **STEP)
+        distance_to_basin_boundary(LINEAR, found, points=20, periods=1, **STEP)
     with pytest.raises(ValueError, match=r"^points = 0"):
-        edge_distance(LINEAR, found, points=0)
+        distance_to_basin_boundary(LINEAR, found, points=0)
 
 
 def test_a_crisis_searched_for_from_below_is_the_one_bisected_in_a_bracket():
@@ -104,4 +106,4 @@ def test_a_manifold_that_stays_away_from_the_border_does_not_reach_beyond_it(fou
     away = saddles(early, large_saddle(Duffing(p=1.0, mu=0.2)))
     assert not beyond(early, away, points=100, **STEP)[0]
     with pytest.raises(ConvergenceError, match="no point comes within"):
-        edge_distance(early, away, points=100, **STEP)
+        distance_to_basin_boundary(early, away, points=100, **STEP)

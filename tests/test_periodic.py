@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from duffing import ConvergenceError, Duffing, poincare_section, trajectory
-from duffing.orbits.periodic import cycle, half_return, multipliers_of, path, periodic_orbit, periodic_orbits
+from duffing.orbits.periodic import cycle, half_period_map, multipliers_of, path, periodic_orbit, periodic_orbits
 
 LINEAR = Duffing(alpha=0.3, p=1.0, mu=0.4, omega=1.3, delta=2.0, gamma=0.0)
 IN_WELL = Duffing(alpha=0.1, p=1.0, mu=0.15)
@@ -58,9 +58,9 @@ def test_multipliers_are_those_of_scipys_map():
 
 def test_half_map_squared_is_the_stroboscopic_map():
     osc, state = Duffing(p=0.3, mu=0.2), np.array([0.4, 0.7])
-    first = half_return(osc, state, 1)
-    second = half_return(osc, first.image[:, 0], 1)
-    whole = half_return(osc, state, 2)
+    first = half_period_map(osc, state, 1)
+    second = half_period_map(osc, first.image[:, 0], 1)
+    whole = half_period_map(osc, state, 2)
     np.testing.assert_allclose(second.image, whole.image, atol=1e-9)
     product = second.derivative[:, :, 0] @ first.derivative[:, :, 0]
     np.testing.assert_allclose(product, whole.derivative[:, :, 0], atol=1e-7)
@@ -70,9 +70,9 @@ def test_half_map_squared_is_the_stroboscopic_map():
 
 def test_each_member_may_have_its_own_number_of_halves():
     osc, state = Duffing(mu=0.2, p=[0.5, 0.5, 0.5]), (0.4, 0.7)
-    mixed = half_return(osc, state, [1, 2, 5])
+    mixed = half_period_map(osc, state, [1, 2, 5])
     for j, halves in enumerate((1, 2, 5)):
-        alone = half_return(Duffing(mu=0.2, p=0.5), state, halves)
+        alone = half_period_map(Duffing(mu=0.2, p=0.5), state, halves)
         np.testing.assert_allclose(mixed.image[:, j], alone.image[:, 0], rtol=1e-12)
         np.testing.assert_allclose(mixed.derivative[:, :, j], alone.derivative[:, :, 0], rtol=1e-9)
 
@@ -127,10 +127,10 @@ def test_search_finds_each_orbit_once_and_none_of_a_shorter_period():
     assert found.state.shape[1] % 2 == 0  # in-well orbits come in mirror pairs
     for orbits, halves in ((symmetric, 1), (found, 2), (triple, 3)):
         family = replace(osc, mu=np.full(orbits.state.shape[1], osc.mu))
-        np.testing.assert_allclose(half_return(family, orbits.state, halves).image, orbits.state, atol=1e-8)
+        np.testing.assert_allclose(half_period_map(family, orbits.state, halves).image, orbits.state, atol=1e-8)
         assert np.all(np.diff(orbits.state[0]) > 0)
     family = replace(osc, mu=np.full(triple.state.shape[1], osc.mu))
-    assert np.all(np.abs(half_return(family, triple.state, 1).image - triple.state).max(axis=0) > 1e-3)
+    assert np.all(np.abs(half_period_map(family, triple.state, 1).image - triple.state).max(axis=0) > 1e-3)
     points = cycle(family, triple.state, 3)
     np.testing.assert_allclose(points[0].max(axis=0), triple.state[0])  # the cycle's point with the greatest x
 
@@ -148,7 +148,7 @@ def test_path_runs_through_the_trajectory():
 
 
 def test_multipliers_of_a_given_map_are_its_eigenvalues():
-    found = half_return(LINEAR, (0.1, 0.2), 1)
+    found = half_period_map(LINEAR, (0.1, 0.2), 1)
     expected = np.linalg.eigvals(found.derivative[:, :, 0])  # a pair, told apart by its imaginary parts
     one, other = (sorted(values, key=np.imag) for values in (multipliers_of(found)[:, 0], expected))
     np.testing.assert_allclose(one, other, atol=1e-9)
@@ -162,8 +162,8 @@ def test_a_guess_that_leads_nowhere_is_a_named_error():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: half_return(IN_WELL, (0.0, 0.0), 0), "halves = 0: must be a whole number >= 1"),
-        (lambda: half_return(IN_WELL, (0.0, 0.0, 0.0)), "state has shape"),
+        (lambda: half_period_map(IN_WELL, (0.0, 0.0), 0), "halves = 0: must be a whole number >= 1"),
+        (lambda: half_period_map(IN_WELL, (0.0, 0.0, 0.0)), "state has shape"),
         (lambda: periodic_orbits(Duffing(mu=[0.1, 0.2]), GRID), "must be a single oscillator"),
         (lambda: path(IN_WELL, (0.0, 0.0), 2, 0), "samples = 0"),
     ],

@@ -11,7 +11,7 @@ from book.studies.followed import amplitude, at_exponent, curves, speed
 from duffing import ConvergenceError, Duffing, paper, poincare_section
 from duffing.orbits.bifurcations import FOLD
 from duffing.orbits.continuation import BOUND
-from duffing.orbits.periodic import half_return, periodic_orbits
+from duffing.orbits.periodic import half_period_map, periodic_orbits
 
 
 @pytest.mark.parametrize("p", [0.1, 0.5, 2.0, 3.0])
@@ -158,7 +158,7 @@ def test_least_forcing_is_a_fold_of_symmetric_orbits_and_below_it_there_are_none
     for p, (omega, mu, state) in resonance.least_forcing((0.1, 1.0)).items():
         assert np.all(np.diff(omega) > 0)
         assert (omega[0], omega[-1]) == (0.5, 2.2)
-        done = half_return(Duffing(p=p, mu=mu, omega=omega), state, 1)
+        done = half_period_map(Duffing(p=p, mu=mu, omega=omega), state, 1)
         np.testing.assert_allclose(done.image, state, atol=1e-6)
         assert np.all(np.abs(np.linalg.det(np.moveaxis(done.derivative, -1, 0) - np.eye(2))) < 1e-4)
         j = omega.size // 2
@@ -199,6 +199,6 @@ def test_folds_of_the_large_response_are_degenerate_orbits():
     folds = [f for one in resonance.large_response(0.3) for f in one.found if f.kind == FOLD]
     assert folds
     for fold in folds:
-        matrix = half_return(fold.osc, fold.state, 1).derivative[:, :, 0]
+        matrix = half_period_map(fold.osc, fold.state, 1).derivative[:, :, 0]
         assert abs(np.linalg.det(matrix - np.eye(2))) < 1e-5
-        np.testing.assert_allclose(half_return(fold.osc, fold.state, 1).image[:, 0], fold.state, atol=1e-8)
+        np.testing.assert_allclose(half_period_map(fold.osc, fold.state, 1).image[:, 0], fold.state, atol=1e-8)

@@ -24,7 +24,7 @@ def passage(distance, periods, anchor, below):
 
 
 @styled
-def edge_distances(distances):
+def distances_to_basin_boundary(distances):
     """Distance of chaos from the border of the large orbit's basin against mu: dict p -> (mu, distance)."""
     fig, axes = panel(MU, "distance from the border (dimensionless)", figsize=(6.8, 3.9))
     axes.axhline(0, color=GREY, linewidth=0.8)

@@ -10,7 +10,7 @@ from duffing.errors import ConvergenceError
 from duffing.orbits.bifurcations import FOLD, bifurcations, orbit_branches
 from duffing.orbits.periodic import periodic_orbit
 from duffing.poincare import poincare_section
-from duffing.transients.crisis import crisis, edge_distance, large_saddle, saddles
+from duffing.transients.crisis import crisis, distance_to_basin_boundary, large_saddle, saddles
 from duffing.transients.lifetimes import both_wells, lifetimes
 
 from ..remember import remembered
@@ -140,9 +140,11 @@ def below_fold(distance, p=paper.P_SMALL, columns=20, rows=20, periods=1000, **s
 
 @remembered
 def edge(mu, p=paper.P_SMALL, points=600, osc=paper.OSCILLATOR, **options):
-    """Distance of chaos from the border of the large orbit's basin (`crisis.edge_distance`) for a tuple of mu: (n,)."""
+    """Distance of chaos from the border of the large orbit's basin for a tuple of mu: (n,)."""
     family = replace(osc, p=p, mu=np.array(mu))
-    return edge_distance(family, saddles(family, large_saddle(replace(osc, p=p, mu=mu[0]))), points=points, **options)
+    return distance_to_basin_boundary(
+        family, saddles(family, large_saddle(replace(osc, p=p, mu=mu[0]))), points=points, **options
+    )
 
 
 @remembered

@@ -13,7 +13,7 @@ from .. import checks
 from ..blocks import block_for, over_blocks
 from ..flow import integrate
 from ..lyapunov import lyapunov_spectrum
-from ..orbits.periodic import half_return, path, periodic_orbits
+from ..orbits.periodic import half_period_map, path, periodic_orbits
 from .capture import UNRESOLVED, capture, first_capture, points_of
 from .trapping import Trap, trap
 
@@ -168,13 +168,13 @@ def _mirrored(osc, state, multipliers, halves, options):
     """The attractor through the state, and its mirror image where that is another one; none if it does not attract."""
     if np.abs(multipliers[0]) >= 1:
         return
-    for point in (state, half_return(osc, state, 1).image[:, 0])[: 1 + (halves % 2 == 0)]:
+    for point in (state, half_period_map(osc, state, 1).image[:, 0])[: 1 + (halves % 2 == 0)]:
 
         def follow(states, repeats):
             family, t = osc.repeated(states.shape[1]), np.array([0.0, repeats * halves * osc.period / 2])
             return (-1) ** (repeats * halves) * integrate(family, states, t, **options).states[:, 1]
 
-        region = trap(follow, point, half_return(osc, point, halves).derivative[:, :, 0])
+        region = trap(follow, point, half_period_map(osc, point, halves).derivative[:, :, 0])
         if region is not None:
             period = halves if halves % 2 else halves // 2
             curve = path(osc, point, 2 * period, 64 * period)

@@ -16,7 +16,7 @@ from .. import checks
 from ..errors import ConvergenceError
 from ..oscillator import FIELDS, Duffing
 from .continuation import correct, follow_branches
-from .periodic import half_return, multipliers_of
+from .periodic import half_period_map, multipliers_of
 
 FOLD, FLIP = "fold", "flip"
 _SIGN = {FOLD: -1.0, FLIP: 1.0}
@@ -72,7 +72,7 @@ def orbit_branches(osc, state, halves=2, *, field="mu", bounds=(0.0, 0.5), optio
     member = np.repeat(np.arange(len(found)), sizes)
     family = starts.members(member, **{field: np.concatenate([branch.parameter for branch in found])})
     every = np.concatenate([branch.u for branch in found], axis=1)
-    multipliers = multipliers_of(half_return(family, every, halves[member], **(options or {})))
+    multipliers = multipliers_of(half_period_map(family, every, halves[member], **(options or {})))
     result = []
     for j, branch in enumerate(found):
         own = member == j
@@ -115,7 +115,7 @@ def bifurcations(branches):
         bad = np.argmin(settled)
         raise ConvergenceError(f"the {kinds[bad]} near {field} = {getattr(near, field)[bad]:g} is not found")
     family = near.members(**{field: z[2]})
-    directions = _directions(half_return(family, z[:2], halves).derivative, kinds)
+    directions = _directions(half_period_map(family, z[:2], halves).derivative, kinds)
     for j, (number, kind, index, k, _) in enumerate(names):
         result[number].append(Bifurcation(kind, family.members(j), k, z[:2, j], directions[:, j], int(index)))
     return [sorted(found, key=lambda one: one.index) for found in result]
@@ -154,7 +154,7 @@ def _closing(osc, field, halves, options):
     def function(u, parameter, member):
         size = member.size
         family = osc.members(np.tile(member, 2), **{field: np.concatenate([parameter, parameter + _SHIFT])})
-        done = half_return(family, np.tile(u, 2), np.tile(halves[member], 2), **options)
+        done = half_period_map(family, np.tile(u, 2), np.tile(halves[member], 2), **options)
         by_parameter = (done.image[:, size:] - done.image[:, :size]) / _SHIFT
         return done.image[:, :size] - u, done.derivative[:, :, :size] - np.eye(2)[:, :, None], by_parameter
 
@@ -171,7 +171,7 @@ def _degenerate(osc, field, second, halves, kinds, options):
         for row in range(4):
             z[row, (row + 1) * size : (row + 2) * size] += _SHIFT
         family = osc.members(np.tile(member, 5), **{field: z[2], second: z[3]})
-        done = half_return(family, z[:2], np.tile(halves[member], 5), **options)
+        done = half_period_map(family, z[:2], np.tile(halves[member], 5), **options)
         trace = done.derivative[0, 0] + done.derivative[1, 1]
         test = 1 + np.tile(sign[member], 5) * trace + np.exp(done.log_area)
         value = np.vstack([done.image - z[:2], test]).reshape(3, 5, size)

@@ -41,7 +41,7 @@ class PeriodicOrbit(NamedTuple):
     multipliers: np.ndarray
 
 
-def half_return(osc, state, halves=2, **options):
+def half_period_map(osc, state, halves=2, **options):
     """The map N^k, k = halves, at the states (2,) or (2, *family) at phase 0: a Return over N members.
 
     halves : a whole number >= 1, or (N,) of them; options : as for `duffing.flow.integrate`
@@ -82,7 +82,7 @@ def periodic_orbit(osc, state, halves=2, **options):
         raise ConvergenceError(
             f"{osc.named(bad)}: Newton's method finds no orbit with halves = {halves} from {guess[:, bad]}"
         )
-    multipliers = multipliers_of(half_return(flat, state, halves, **options))
+    multipliers = multipliers_of(half_period_map(flat, state, halves, **options))
     return PeriodicOrbit(state.reshape(2, *osc.shape), multipliers.reshape(2, *osc.shape))
 
 
@@ -112,7 +112,7 @@ def periodic_orbits(osc, starts, halves=2, apart=1e-5, **options):
     if not keep:
         return PeriodicOrbit(chosen, np.empty((2, 0), dtype=complex))
     family = osc.repeated(len(keep))
-    return PeriodicOrbit(chosen, multipliers_of(half_return(family, chosen, halves, **options)))
+    return PeriodicOrbit(chosen, multipliers_of(half_period_map(family, chosen, halves, **options)))
 
 
 def cycle(osc, state, halves=2, **options):
@@ -139,7 +139,7 @@ def _newton(osc, guess, halves, options):
     """Refined states (2, N) and whether each member converged; steps are cut to a length."""
     state, found, live = guess.copy(), np.zeros(guess.shape[1], dtype=bool), np.arange(guess.shape[1])
     for _ in range(_STEPS):
-        image, derivative, _ = half_return(osc.members(live), state[:, live], halves, **options)
+        image, derivative, _ = half_period_map(osc.members(live), state[:, live], halves, **options)
         step = _solve(derivative - np.eye(2)[:, :, None], state[:, live] - image)
         length = np.hypot(*step)
         state[:, live] += step * np.minimum(1, _LONGEST / np.maximum(length, _LONGEST))

@@ -14,7 +14,7 @@ import numpy as np
 from .. import checks
 from ..errors import ConvergenceError
 from ..flow import integrate, stroboscopic_times
-from ..orbits.periodic import half_return, periodic_orbit, periodic_orbits
+from ..orbits.periodic import half_period_map, periodic_orbit, periodic_orbits
 
 TOLERANCE = {"rtol": 1e-8, "atol": 1e-10}
 REACH = 0.25  # from the large saddle orbit within which its linear coordinate is used
@@ -64,7 +64,7 @@ def saddles(osc, outer):
     inner = periodic_orbit(osc, centre.reshape(2, *osc.shape), 1)
     outer = periodic_orbit(osc, outer.reshape(2, *osc.shape), 1)
     states = [orbit.state.reshape(2, -1) for orbit in (inner, outer)]
-    maps = [np.moveaxis(half_return(osc, state, 1).derivative, -1, 0) for state in states]
+    maps = [np.moveaxis(half_period_map(osc, state, 1).derivative, -1, 0) for state in states]
     unstable = _eigenvector(maps[0])
     normal = _eigenvector(np.swapaxes(maps[1], -1, -2))
     normal *= -np.sign(np.sum(normal * states[1], axis=0))
@@ -72,7 +72,7 @@ def saddles(osc, outer):
     return Saddles(*states, unstable, normal, moduli[0], moduli[1][0])
 
 
-def edge_distance(osc, found, points=600, periods=12, method="auto", **options):
+def distance_to_basin_boundary(osc, found, points=600, periods=12, method="auto", **options):
     """Signed distance (n,) of W^U of the inner saddle orbits from the border, negative where it reaches beyond.
 
     osc : family of n members; found : their Saddles
@@ -93,13 +93,13 @@ def edge_distance(osc, found, points=600, periods=12, method="auto", **options):
 def beyond(osc, found, **options):
     """Whether W^U of the inner saddle orbits reaches beyond the border (n,): one that stays away from it does not.
 
-    osc : family of n members; found : their Saddles; options : as for `edge_distance`
+    osc : family of n members; found : their Saddles; options : as for `distance_to_basin_boundary`
     """
     return _distance(osc, found, **options) < 0
 
 
 def _distance(osc, found, points=600, periods=12, method="auto", **options):
-    """What `edge_distance` returns, infinite for a member no point of which comes near the large saddle orbit."""
+    """`distance_to_basin_boundary`, infinite for a member no point of which comes near the large saddle orbit."""
     n = found.inner.shape[1]
     share = np.tile(np.arange(checks.count("points", points)) / points, (n, 1))
     options = {"method": method, **(options if method == "rk4" else TOLERANCE | options)}
@@ -127,10 +127,10 @@ def _heights(osc, found, share, periods, options):
 
 
 def crisis(osc, lower, upper, outer, steps=9, **options):
-    """The forcings (n,) at which the distance of `edge_distance` changes its sign, by so many steps of bisection.
+    """The forcings (n,) at which `distance_to_basin_boundary` changes its sign, by so many steps of bisection.
 
     osc : family of n members, its own mu not used; lower, upper : (n,) forcings with a positive and a negative distance
-    outer : guesses (2,) or (2, n) of the large saddle orbits; options : as for `edge_distance`
+    outer : guesses (2,) or (2, n) of the large saddle orbits; options : as for `distance_to_basin_boundary`
 
     Raises ConvergenceError naming the first member whose bracket holds no change of sign.
     """
@@ -141,7 +141,7 @@ def crisis(osc, lower, upper, outer, steps=9, **options):
     ends = []
     for mu in (lower, upper):
         found = saddles(osc.members(mu=mu), outer)
-        ends.append(edge_distance(osc.members(mu=mu), found, **options))
+        ends.append(distance_to_basin_boundary(osc.members(mu=mu), found, **options))
     wrong = ~((ends[0] > 0) & (ends[1] < 0))
     if wrong.any():
         bad = int(np.argmax(wrong))
@@ -157,7 +157,8 @@ def crisis_above(osc, lower, outer, step=0.02, tries=15, steps=5, **options):
     osc : family of n members, its own mu not used; lower : (n,) forcings at which it does not reach beyond
     outer : guesses (2,) or (2, n) of the large saddle orbits at `lower`
     step, tries : of the grid; infinite for a member whose W^U keeps to its side up to lower + tries * step
-    steps : of bisection; options : as for `edge_distance`, but a manifold that stays away counts as on its side
+    steps : of bisection; options : as for `distance_to_basin_boundary`, but a manifold that stays away counts as on
+        its side
 
     Raises ConvergenceError naming the first member whose W^U reaches beyond at `lower`.
     """

@@ -48,7 +48,7 @@ def within(**tolerances):
 CASES = {
     "edge": Case(
         _edge,
-        lambda d: figures.edge_distances({1.0: (d["mu"], d["distance"])}),
+        lambda d: figures.distances_to_basin_boundary({1.0: (d["mu"], d["distance"])}),
         within(distance=0.02),
     ),
     "passage": Case(
