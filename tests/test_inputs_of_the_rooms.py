@@ -49,9 +49,9 @@ CALLS = {
     "orbits.periodic.periodic_orbits": {"osc": OSC, "starts": START, "halves": 2, "apart": 1e-5},
     "orbits.periodic.cycle": ORBIT,
     "orbits.periodic.path": {**ORBIT, "samples": 4},
-    "orbits.followed.amplitude": {**ORBIT, "samples": 4},
-    "orbits.followed.speed": {**ORBIT, "samples": 4},
-    "orbits.followed.stroboscopic": ORBIT,
+    "book.studies.followed.amplitude": {**ORBIT, "samples": 4},
+    "book.studies.followed.speed": {**ORBIT, "samples": 4},
+    "book.studies.followed.stroboscopic": ORBIT,
     "orbits.diagram.bifurcation_diagram": {"osc": OSC, "mu": [0.1, 0.2], "starts": START, "transient": 0, "kept": 1},
     "orbits.bifurcations.orbit_branches": {
         "osc": Duffing(alpha=0.1, mu=[0.02]), "state": [[1.0], [0.0]], "halves": 2, "field": "mu", "bounds": (0.0, 0.03)
@@ -79,10 +79,10 @@ CALLS = {
         "osc": OSC, "state": (0.9, 0.0), "periods": 10, "settling": 0, "radius": 0.1, "tolerance": 1e-4, "block": 40,
         "tangents": 0,
     },
-    "transients.survival.survival": {"time": SAMPLE["time"], "settled": SAMPLE["settled"]},
-    "transients.survival.exponential": SAMPLE,
-    "transients.survival.rate": {"time": SAMPLE["time"], "captured": SAMPLE["settled"], "since": 0},
-    "transients.survival.law_test": {**SAMPLE, "until": 13, "resamples": 2, "seed": 1},
+    "book.studies.survival.survival": {"time": SAMPLE["time"], "settled": SAMPLE["settled"]},
+    "book.studies.survival.exponential": SAMPLE,
+    "book.studies.survival.rate": {"time": SAMPLE["time"], "captured": SAMPLE["settled"], "since": 0},
+    "book.studies.survival.law_test": {**SAMPLE, "until": 13, "resamples": 2, "seed": 1},
     "basins.uncertainty.uncertain_starts": {
         "label": sides, "box": ((-1, 1), (-1, 1)), "eps": [0.1], "starts": 10, "seed": 1
     },
@@ -90,8 +90,7 @@ CALLS = {
 }  # an entry a line, or two  # fmt: skip
 # Those that take what another one gave, or what a caller inside the package has checked.
 WITHIN = {
-    "orbits": "bifurcations bifurcation_curves correct curves follow_branches marks at_exponent multipliers_of"
-    " orbits_at side_by_side switch_branches",
+    "orbits": "bifurcations bifurcation_curves correct follow_branches multipliers_of switch_branches",
     "basins": "boundary_dimension capture changed classify_path contracted_form first_capture ordered neighbourhood"
     " points_of trap",
     "transients": "beyond both_wells edge_distance returns",
