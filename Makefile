@@ -113,7 +113,7 @@ clean:
 
 # The reference data and images of the figures, after a change that is meant to alter them; CASE=name for one of them.
 baselines: $(READY)
-	$(BIN)/python -m pytest tests/test_figures.py --regenerate $(if $(CASE),-k $(CASE))
+	$(BIN)/python -m pytest tests/test_figures.py --regenerate $(if $(CASE),-k '[$(CASE)]')
 
 # Pins every package anew from pyproject.toml, keeping the present versions where they still fit (delete environment.txt
 # first to update all). The maintainer's own target, and the only one that needs uv: it resolves for all systems at once.
