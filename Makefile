@@ -96,7 +96,8 @@ reproducible: $(READY)
 mutants: $(READY)
 	$(BIN)/python tools/mutants.py
 
-# The core of the tests and a small book as strangers would run them: no home, other settings, one processor, no network.
+# The core of the tests and a small book as strangers would run them: no home, other settings, one processor, no network;
+# and every chapter as a downloaded notebook beside an installed wheel.
 elsewhere: $(READY)
 	$(BIN)/python tools/elsewhere.py
 
