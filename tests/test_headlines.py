@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from book.paper import LIKELY
-from book.studies import comparison, inference, missing_parameters, plane, small_p
-from duffing import Duffing, critical_amplitude, homoclinic_tangency, lyapunov_spectrum
+from book.studies import cascade, comparison, inference, missing_parameters, plane, small_p
+from duffing import ConvergenceError, Duffing, critical_amplitude, homoclinic_tangency, lyapunov_spectrum
 from duffing.basins.contact import homoclinic_strips
 
 ROOT = Path(__file__).parents[1]
@@ -102,6 +102,19 @@ def test_at_weak_damping_what_lasts_for_six_hundred_periods_may_be_a_transient()
     mu = (0.2, 0.2125)  # below the end of the orbits in the well, 0.256
     short, long = (plane.lasting(0.05, 1.3, 1.0, mu, columns=2, rows=2, periods=n).across for n in (600, 1500))
     assert short.max() >= 0.5 > long.max()
+
+
+def test_the_borders_do_not_describe_all_of_the_plane():
+    assert plane.lasting(0.1, 0.55, 1.0, (0.35, 0.39), columns=2, rows=2, periods=1000).across.min() == 1
+    for omega in (1.3, 1.35):
+        with pytest.raises(ConvergenceError, match="no fold"):
+            cascade.small_folds(0.1, omega, 1.0)
+
+
+def test_the_three_pairs_beside_the_likely_ones_miss_the_transient_of_fig_5b():
+    found = missing_parameters.evidence(*np.transpose(plane.PAIRS))
+    transient = inference.probabilities(found)["transient"]
+    assert transient[:3].min() > 0.9 and transient[3:].max() < 0.01
 
 
 def test_the_apexes_of_both_exponents_change_their_order_with_alpha():
