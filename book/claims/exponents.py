@@ -233,7 +233,10 @@ def _lambda_regular():
 @finds(FINDINGS, "mu-c2")
 def _higher():
     _, _, ratio = onset_ratios()
-    return decide(np.nanmin(ratio) > 1, f"At every exponent; the least ratio is {np.nanmin(ratio):.2f}.")
+    return decide(
+        np.nanmin(ratio) > 1,
+        f"At each of {np.isfinite(ratio).sum()} exponents p; the least ratio is {np.nanmin(ratio):.2f}.",
+    )
 
 
 @finds(FINDINGS, "algorithm")

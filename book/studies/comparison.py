@@ -21,7 +21,7 @@ P = (0.1, 0.5, 1.0, 2.0)
 MU_EQUAL = 0.268  # just above the onset of lasting chaos at p = 0.1; at the other exponents chaos is transient there
 ENERGY_EQUAL = 0.22  # energy taken in a period; every exponent reaches it while it wanders
 CHAOTIC = 0.05  # an exponent above this is called chaotic; regular motion has a negative one
-MU_STRONG = 0.85  # beyond the range of the paper's figures, where chaos at p = 0.1 has come again
+MU_STRONG = 1.3  # beyond the range of the paper's figures, where chaos at p = 0.1 lasts again (at 0.85 it is transient)
 RATIOS = (1.85, 2.45, 3.30, 5.60)  # each in the middle of the chaos of one of the exponents P
 MU = {
     0.1: (0.264, 0.266, 0.268, 0.270, 0.272, 0.274, 0.277, 0.280, 0.285),

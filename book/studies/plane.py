@@ -20,7 +20,7 @@ from .accuracy import CURVES, integrator
 from .cascade import CHAOTIC, cascade, small_folds
 from .transients import starts_between_wells
 
-# Pairs (alpha, omega) under which the paper's text can be read: the likeliest, the adopted one first, and three more.
+# Pairs (alpha, omega): the likely ones, the adopted one first, and three more of the plane, less likely by the text.
 PAIRS = (*((pair.alpha, pair.omega) for pair in LIKELY), (0.14, 1.05), (0.16, 1.175), (0.05, 1.3))
 EXPONENTS = (0.1, 1.0)
 STEPS = 128  # Runge-Kutta steps a period where the damping is smooth: of chaos only the attractor is meant
