@@ -57,7 +57,8 @@ def _pairs(key, chance):
     if key in INDEPENDENT:
         return "no", "no"
     if key not in USED:
-        return "no", "yes; " + under_rivals(key)
+        part = " (by the order of the onsets alone)" if key == "contradiction" else ""
+        return "no", f"yes; {under_rivals(key)}{part}"
     return "yes: circular", "; ".join(f"{letter}: {p:.2g}" for letter, p in chance[key].items())
 
 
