@@ -21,7 +21,7 @@ CERTIFICATES = Path(__file__).parent / "certificates"
 
 
 def load(name):
-    """A certificate by its name: p1, p3, first1."""
+    """A certificate by its name: p1, p3, first1, first3."""
     return json.loads((CERTIFICATES / f"{name}.json").read_text(encoding="utf-8"))
 
 
