@@ -183,11 +183,8 @@ def _robust_onset(osc=paper.OSCILLATOR):
         for f in (1, FINE)
     ]
     text = f"At μ = 0.27: λ₁ = {values[0]:.3f} with the paper's step, {values[1]:.3f} with one {FINE} times smaller."
-    return decide(
-        min(values) > paper.THRESHOLD,
-        text + " The onset itself was not searched again with the small step.",
-        limited=True,
-    )
+    text += " The onset itself was not searched again with the small step."
+    return decide(min(values) > paper.THRESHOLD, text, limited=True)
 
 
 @finds(FINDINGS, "threshold")
