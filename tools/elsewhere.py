@@ -53,14 +53,9 @@ class Place(NamedTuple):
 
 
 def copied(folder):
-    """The checkout's own files, in a folder that everybody may write to."""
-    names = ["benchmarks", "binder", "book", "chapters", "docs", "duffing", "proof", "tests", "tools", "vectorized"]
-    names += [".github", ".ci"]
-    for name in [name for name in names if (ROOT / name).exists()]:
-        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__", "kernels-*"))
-    for path in [path for path in ROOT.iterdir() if path.is_file() and not path.name.startswith(".git")]:
-        shutil.copy(path, folder)
-    shutil.copy(ROOT / ".gitignore", folder)
+    """What git knows of the checkout, in a folder that everybody may write to."""
+    ignored = [line.rstrip("/") for line in (ROOT / ".gitignore").read_text(encoding="utf-8").split()]
+    shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".git", *ignored))
     for path in [folder, *folder.rglob("*")]:
         path.chmod(path.stat().st_mode | (0o777 if path.is_dir() else 0o666))
     return folder
@@ -238,7 +233,6 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         folder.chmod(0o777)
-        (folder / "checkout").mkdir()
         checkout = copied(folder / "checkout")
         for name, missing, run_all in rows(folder, checkout, given.tests):
             if given.names and not any(word in name for word in given.names):
