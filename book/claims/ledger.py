@@ -45,10 +45,12 @@ def rows(*keys):
 
 def table(*keys):
     """The rows as a Markdown table to be glued into a page; all of them without keys."""
-    head = ("Where", "The paper says", "Kind", "We find", "Verdict", "Used to choose α, ω", "Depends on α, ω")
+    head = ("The paper says", "Kind", "We find", "Verdict", "Used to choose α, ω", "Depends on α, ω")
     found = rows(*keys)
     chance = over_pairs() if any(claim.key in USED for claim, _ in found) else {}
-    cells = [(c.where, c.says, kind(c.key), f.text, f"**{f.verdict}**", *_pairs(c.key, chance)) for c, f in found]
+    cells = [
+        (f"{c.where}: {c.says}", kind(c.key), f.text, f"**{f.verdict}**", *_pairs(c.key, chance)) for c, f in found
+    ]
     return tables.table(head, cells)
 
 
