@@ -17,6 +17,7 @@ IN_TEXT = {
     "a hyphen for a minus": re.compile(r"(?:(?<=[\s(\[=])|^)-\.?\d"),
     "an error of zero": re.compile(r"±\s*0(?:\.0+)?(?![\d.])"),
     "a type of NumPy's": re.compile(r"np\.(?:float|int|bool)"),
+    "mathematics that was left as it was written": re.compile(r"\$\\?\w"),
 }
 IN_OUTPUT = re.compile(r"np\.(?:float|int|bool)\w*\(")
 
@@ -56,6 +57,7 @@ def test_numbers_on_a_page_are_typeset(page):
         ("<table><tr><td>-0.057</td></tr></table>", "a hyphen for a minus"),
         ("<p>from (-0.5, 1)</p>", "a hyphen for a minus"),
         ("<p>1.000 ± 0.000</p>", "an error of zero"),
+        (r"<p>not tied to $\mu_c$</p>", "mathematics that was left as it was written"),
         ('<div class="cell_output"><pre>[np.float64(0.38)]</pre></div>', "a type of NumPy's"),
         ("<p>1.4 × 10⁻⁴, −0.5, 0.1-0.2, 2026-11-28, ± 0.011</p>", None),
         ("<p><code>1e-08</code> and <code>-1</code></p>", None),
