@@ -161,7 +161,7 @@ def test_a_workflow_pins_its_actions_its_machine_and_what_it_may_do(path):
         for step in job["steps"]:
             assert "run" in step or re.fullmatch(r"actions/[\w-]+@[0-9a-f]{40}", step["uses"]), step
         assert re.fullmatch(r"ubuntu-\d\d\.\d\d", job["runs-on"])
-        assert job["timeout-minutes"] <= 60
+        assert job["timeout-minutes"] <= 120
     assert yaml.safe_load(path.read_text(encoding="utf-8"))["permissions"]["contents"] == "read"
 
 
