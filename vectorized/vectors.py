@@ -189,26 +189,20 @@ def where(typingctx, condition, a, b):
     return result(condition, *(kind if kind is DOUBLES else types.float64 for kind in (a, b))), codegen
 
 
+def _same_bits(context, builder, sig, arguments):
+    return builder.bitcast(arguments[0], context.get_value_type(sig.return_type))
+
+
 @intrinsic
 def bits(typingctx, a):
     """The bits of a double, or of eight, as whole numbers."""
-    result = WORDS if a is DOUBLES else types.uint64
-
-    def codegen(context, builder, sig, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(result))
-
-    return result(a), codegen
+    return (WORDS if a is DOUBLES else types.uint64)(a), _same_bits
 
 
 @intrinsic
 def from_bits(typingctx, a):
     """The double, or the eight, with these bits."""
-    result = DOUBLES if a is WORDS else types.float64
-
-    def codegen(context, builder, sig, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(result))
-
-    return result(a), codegen
+    return (DOUBLES if a is WORDS else types.float64)(a), _same_bits
 
 
 @intrinsic

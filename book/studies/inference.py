@@ -148,13 +148,17 @@ def _breadth(mu, share, onset, reach):
 
 def log_likelihood(evidence, models=STATED, without=(), units=UNITS, averages=(0, 1)):
     """Log likelihood of each reading of the exponents: (len(units), len(averages), m), without some statements."""
-    return np.array([
+    return np.array(
         [
-            sum(np.log(p) for key, p in probabilities(evidence, unit, average, models).items() if key not in without)
-            for average in averages
+            [
+                sum(
+                    np.log(p) for key, p in probabilities(evidence, unit, average, models).items() if key not in without
+                )
+                for average in averages
+            ]
+            for unit in units
         ]
-        for unit in units
-    ])  # fmt: skip
+    )
 
 
 def marginal(log_likelihoods):

@@ -12,7 +12,7 @@ from vectorized.memory import widest_vectors
 from vectorized.vectors import fma, repeated, root, where
 from .block import (
     ETA1, ETA2, LAST, NEW, NOW, SLOPES, STEP, XI1, XI2, H, M, S, T, W, X, eights,
-)  # fmt: skip
+)  # rows: some lines of names instead of a page  # fmt: skip
 from .equations import SMOOTH, rates
 
 

@@ -28,7 +28,7 @@ from vectorized.vectors import fma, repeated, where
 from .block import (
     ALPHA, DAMPER, DELTA, ETA1, ETA2, GAMMA, LINEAR, MU, NEW, NOW, OMEGA, OSC, SLOPES, SPRING, START, XI1, XI2, M,
     N, S, T, W, X, eights, lanes,
-)  # fmt: skip
+)  # rows: some lines of names instead of a page  # fmt: skip
 from .elementary import cosine, logarithm, power
 
 SMOOTH, ONE_POWER, TWO_POWERS = range(3)  # kinds of blocks: all lanes have m = n = 1; n = 1; neither

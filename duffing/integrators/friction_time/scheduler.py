@@ -16,7 +16,7 @@ from .block import (
     ALPHA, BLOCK, CREEP, ETA1, ETA2, EVALUATIONS, FAR, FRAME, GAIN, INTERVAL, LOG1, LOG2, MEMBER, MOVE, NEW, NOW,
     OMEGA, OSC, OUTCOME, OWNER, PACE, PARAMETERS, PASSAGES, REJECTED, SHEAR, SIGN, SLOPES, START, STEP, STEPS, TARGET,
     WIDTH, XI1, XI2, H, M, N, P, S, T, W, X, lanes,
-)  # fmt: skip
+)  # rows: some lines of names instead of a page  # fmt: skip
 from .dop853 import step
 from .equations import ONE_POWER, SMOOTH, TWO_POWERS, first_slopes, force, powers, variable, velocity
 from .event_location import locate_event
@@ -32,7 +32,7 @@ from .step_control import (
     TOO_MANY_STEPS,
     accept_steps,
     not_beyond,
-)  # fmt: skip
+)
 from .tangent_frame import log_area, orthonormalise
 
 # What is told of each interval: position, velocity, time, friction time, the frame, its first vector's angle, passages.

@@ -11,7 +11,7 @@ from vectorized.vectors import root, where
 from .block import (
     ALPHA, EVALUATIONS, FAR, GAIN, GAMMA, LAST, MOVE, NEW, NOW, OSC, OUTCOME, OWNER, PACE, REJECTED, SIGN, SLOPES, STEP,
     STEPS, TARGET, H, M, N, P, S, T, W, X, eights,
-)  # fmt: skip
+)  # rows: some lines of names instead of a page  # fmt: skip
 from .dop853 import error
 from .equations import SMOOTH, TWO_POWERS, stiffness
 from .event_location import reaches
