@@ -58,7 +58,7 @@ proof: $(READY)
 
 # That no smaller forcing has a tangency: some minutes more.
 proof-first: $(READY)
-	$(BIN)/python -m proof --first 1
+	$(BIN)/python -m proof --first
 
 lab: $(READY)
 	$(BIN)/python -m jupyter lab --notebook-dir=. --LabApp.default_url=/lab/tree/chapters/index.md $(LAB_OPTIONS)

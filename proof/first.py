@@ -11,7 +11,7 @@ from .pieces import Setting, factor, first_pieces, flown, piece
 from .rational import period, read
 from .theorems import SHARE
 
-WIDTH, MOST = 18, 700  # of the first pieces, and how many pieces an interval may take before it is divided
+WIDTH, MOST = 18, 1500  # of the first pieces, and how many pieces an interval may take before it is divided
 
 
 def intervals(low, share):

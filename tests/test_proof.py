@@ -67,11 +67,10 @@ def test_the_saddle_orbit_of_the_certificate_is_that_of_the_package(p):
     assert stretch**2 == pytest.approx(orbit.multipliers[0], rel=1e-3)
 
 
-@pytest.mark.parametrize(("p", "short"), [(1, 0), (3, Fraction(2, 10**6))])
-def test_no_smaller_forcing_amplitude_has_a_primary_intersection(p, short):
-    """At p = 3 up to a part of mu_low that is smaller by two millionths at most."""
+@EACH_P
+def test_no_smaller_forcing_amplitude_has_a_primary_intersection(p):
     top, pairs = check_first(load(f"p{p}"), load(f"first{p}"))
-    assert top >= Fraction(load(f"p{p}")["low"]) * (1 - short)
+    assert top == Fraction(load(f"p{p}")["low"])
     assert pairs > 0
 
 
