@@ -56,7 +56,7 @@ slow: $(READY)
 proof: $(READY)
 	$(BIN)/python -m proof
 
-# That no smaller forcing has a tangency: some minutes more.
+# That no smaller forcing has a tangency: up to half an hour more.
 proof-first: $(READY)
 	$(BIN)/python -m proof --first
 

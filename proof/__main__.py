@@ -6,18 +6,24 @@ It ends with a line a theorem. The decimals are the bounds themselves, not round
 import json
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from fractions import Fraction
+from functools import partial
+from math import pi
 
+from scipy.optimize import brentq, minimize_scalar
 from tqdm import tqdm
 
-from duffing import Duffing, critical_amplitude
+from duffing import Duffing, homoclinic_tangency, splitting
 
 from .check import CERTIFICATES, check, load
-from .first import check_first, prove_first
-from .oscillator import Oscillator, exact
+from .first import check_first, intervals, prove_interval
+from .oscillator import Oscillator
 from .rational import decimal
 from .theorems import prove
 
 WORKERS = 2
+SHARE = 4.8e-9  # (mu_t - mu_low) / mu_t, and the same above
+DIGITS = 12  # of mu_low and mu_high, so that they do not depend on the last bits of the package's tangency
 
 
 def write(name, certificate):
@@ -30,36 +36,47 @@ def write(name, certificate):
 def statement(certificate):
     """The theorem of a certificate in one line."""
     low, high, least = check(certificate)
-    p = certificate["oscillator"]["p"]
-    return f"p = {p}: {decimal(low, 16)} < mu_t < {decimal(high, 16)}; x_s - x_u > {float(least):.1e} at the lower end"
+    p, (low, high) = certificate["oscillator"]["p"], (decimal(end, DIGITS) for end in (low, high))
+    return f"p = {p}: {low} < mu_t < {high}; x_s - x_u > {float(least):.1e} at the lower end"
 
 
 def find(p):
     """Prove everything about the exponent p but what `find_first` does."""
-    guess = exact("mu", f"{float(critical_amplitude(Duffing(p=float(p)))):.12f}")
+    near = homoclinic_tangency(Duffing(p=float(p)))
+    low, high = (Fraction(round(near * (1 + share) * 10**DIGITS), 10**DIGITS) for share in (-SHARE, SHARE))
     with ProcessPoolExecutor(WORKERS) as pool, tqdm(desc=f"p = {p}", unit=" pieces") as bar:
-        certificate = prove(Oscillator(p), guess, lambda task, todo: pool.map(task, todo, chunksize=4), bar.update)
+        each = partial(pool.map, chunksize=4)
+        certificate = prove(Oscillator(p), low, high, crossing_phase(p, high), each, bar.update)
     write(f"p{p}", certificate)
     return statement(certificate)
 
 
+def crossing_phase(p, mu):
+    """A phase at which the manifolds cross, from the package: it tells the proof where to look, and proves nothing."""
+
+    def apart(phase):
+        return -float(splitting(Duffing(p=float(p), mu=float(mu)), phase))
+
+    nearest = minimize_scalar(apart, bounds=(pi / 4, 3 * pi / 4), method="bounded", options={"xatol": 1e-7}).x
+    return round(brentq(apart, nearest, nearest + 0.1), 8)
+
+
 def find_first(p):
-    """Prove that there is no primary intersection for any mu up to mu_low; an interrupted run goes on."""
-    certificate, path = load(f"p{p}"), CERTIFICATES / f"first{p}.json"
-    records = load(f"first{p}") if path.exists() else []
-    with ProcessPoolExecutor(WORKERS) as pool, tqdm(desc=f"first, p = {p}", unit=" intervals") as bar:
-        for found in prove_first(certificate, pool.map, records):
-            records = sorted([*records, *found], key=lambda record: float(exact("mu", record[0])))
-            write(f"first{p}", records)
-            bar.update(len(found))
-    top, _ = check_first(certificate, records)
-    return f"p = {p}: no primary intersection for 0 < mu <= {decimal(top, 16)}"
+    """Prove that there is no primary intersection for any mu up to mu_low."""
+    certificate = load(f"p{p}")
+    tasks = [(Oscillator(p), *ends) for ends in intervals(Fraction(certificate["low"]))]
+    with ProcessPoolExecutor(WORKERS) as pool:
+        found = pool.map(prove_interval, tasks)
+        records = list(tqdm(found, desc=f"first, p = {p}", total=len(tasks), unit=" intervals"))
+    check_first(certificate, records)
+    write(f"first{p}", records)
+    return f"p = {p}: no primary intersection for 0 < mu <= {decimal(Fraction(certificate['low']), DIGITS)}"
 
 
 def main(arguments):
     """The command."""
     task = find_first if "--first" in arguments else find
-    exponents = [int(p) for p in arguments if p != "--first"] or [1, 3]
+    exponents = [int(p) for p in arguments if p != "--first"] or [1, 2, 3]
     print(*[task(p) for p in exponents], sep="\n")
 
 

@@ -21,7 +21,7 @@ CERTIFICATES = Path(__file__).parent / "certificates"
 
 
 def load(name):
-    """A certificate by its name: p1, p3, first1, first3."""
+    """A certificate by its name: p1, p2, p3, first1, first2, first3."""
     return json.loads((CERTIFICATES / f"{name}.json").read_text(encoding="utf-8"))
 
 
@@ -75,19 +75,21 @@ def covers(setting, records):
 
 def check_below(setting, found):
     """Assert that the pieces of both manifolds cover and are apart at all phases: the least gap."""
-    both = []
     for side, name in sides(setting):
         covers(side, found[name])
-        pieces = [piece(record) for record in falling(found[name])]
-        for one in pieces:
-            if not one.rate.high < 0:
-                raise NotProved(f"a piece is no graph over the phase: dt/dxi up to {float(one.rate.high):.1e}")
-        both.append(pieces)
-    unstable, stable = both
-    apart = [least for one in unstable for _, least in shared(one, stable, period(setting.osc.omega), setting.spread)]
-    if not min(apart) > 0:
-        raise NotProved(f"the manifolds may meet: gap {float(min(apart)):.1e}")
-    return min(apart)
+    return min(separated(setting, [found["unstable"], found["stable"]]))
+
+
+def separated(setting, both):
+    """The gaps of all pairs of pieces, of their records (unstable, stable), that share a phase: each positive."""
+    unstable, stable = ([piece(record) for record in falling(records)] for records in both)
+    for one in unstable + stable:
+        if not one.rate.high < 0:
+            raise NotProved(f"a piece is no graph over the phase: dt/dxi up to {float(one.rate.high):.1e}")
+    gaps = [least for one in unstable for _, least in shared(one, stable, period(setting.osc.omega), setting.spread)]
+    if gaps and not min(gaps) > 0:
+        raise NotProved(f"the manifolds may meet at mu = {float(setting.mu)}: gap {float(min(gaps)):.1e}")
+    return gaps
 
 
 def flown_within(setting, record):

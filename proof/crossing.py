@@ -1,14 +1,16 @@
 """A set of solutions is followed to its first crossing of v = 0 beyond the well, x > sqrt(-delta / gamma)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from flint import arb, arb_mat, arb_poly
 
 from .lohner import enclose, growth, step
 from .oscillator import NotProved, around, ball, drive, force, stiffness, taylor
+from .rational import fraction
 
 LONGEST = Fraction(40)  # half periods that a flight may take
+LITTLE = 1e-14  # of v: a set that is no wider changes its sign in one step
 
 
 @dataclass(frozen=True)
@@ -29,12 +31,48 @@ def time_step(x):
 def advance(osc, now, orders, longest):
     """One step of at most `longest` half periods, halved where the enclosure fails."""
     part = min(time_step(abs(now.m[0, 0])), longest)
-    for _ in range(6):
+    field = osc
+    if osc.p == 2 and not osc.sign:
+        field, change = _known_sign(osc, now)
+        part = min(part, change)
+    for halved in range(6 if field is osc else 12):
+        field, length = (field if halved < 6 else osc), part / 2 ** (halved % 6)
         try:
-            return step(osc, now, ball(part) * arb.pi() / ball(osc.omega), orders, (now.turn + part, now.late))
+            h = ball(length) * arb.pi() / ball(osc.omega)
+            after, held = step(field, now, h, orders, (now.turn + length, now.late))
+            if field is not osc:
+                _keeps_its_sign(field, now, after, held)
+            return after, held
         except NotProved as failure:
-            part, why = part / 2, failure
+            why = failure
     raise why
+
+
+def _known_sign(osc, now):
+    """For p = 2: (oscillator with the sign of v, half periods until just before v changes it).
+
+    Where v is about to change its sign, the oscillator as it is and the time until it has. Both times are guesses.
+    """
+    x, v, mu = now.box()
+    F, wide = force(osc, x, v, mu, now.phase(osc)).mid(), v.rad() + LITTLE
+    known = replace(osc, sign=1 if v.mid() > 0 else -1)
+    if v.contains(0) or (v.mid() * F < 0 and v.abs_lower() < 4 * wide):
+        known, late = osc, 1.2 * (v.abs_upper() + LITTLE) / abs(F)
+    elif v.mid() * F < 0:
+        late = _newton(known, now) - 2.5 * wide / abs(F)
+    else:
+        return known, LONGEST
+    part = (late * ball(osc.omega) / arb.pi()).mid() * 2**64
+    return known, Fraction(int(fraction(part)), 2**64) if 1 < part < 2**70 else LONGEST
+
+
+def _keeps_its_sign(osc, now, after, held):
+    """Assert that v has the oscillator's sign on a step: everywhere, or at its end while F has one sign everywhere."""
+    if osc.sign * held.v > 0:
+        return
+    F = force(osc, held.x, held.v, now.box()[2], _phases(osc, now, after))
+    if F.contains(0) or not osc.sign * after.box()[1] > 0:
+        raise NotProved(f"v keeps its sign: v = {held.v.str(5)}, F = {F.str(5)}")
 
 
 def to_phase(osc, now, turn, orders):
@@ -51,7 +89,9 @@ def to_crossing(osc, now, orders):
     and the zero is one. Raises NotProved.
     """
     well = (-ball(osc.delta) / ball(osc.gamma)).sqrt()
+    whole, beyond = osc, replace(osc, sign=1)
     while now.turn < LONGEST:
+        osc = beyond if now.box()[0] > well else whole  # v > 0 there until the crossing
         after, held = advance(osc, now, orders, LONGEST)
         if not held.x > -well:
             raise NotProved(f"a solution may go over to the left: x = {held.x.str(5)}")

@@ -90,6 +90,18 @@ def growth(osc, held, length):
     return arb_mat([[1 + wide, wide, wide], [wide, 1 + wide, wide], [0, 0, 1]])
 
 
+def dropped(osc, held, length):
+    """How far state and derivative at most go wrong where a step leaves out the friction alpha v |v| (Gronwall).
+
+    As a step does on which v may change its sign: there the friction is no polynomial, and small.
+    """
+    (pull, damping), most = stiffness(osc, held.x, held.v), held.v.abs_upper()
+    grown = length * ((abs(pull) + damping.abs_upper() + 1).upper() * length).exp()
+    return tuple(
+        around((bound * grown).upper()) for bound in (damping.abs_upper() * most, damping.abs_upper() + 2 * pull.rad())
+    )
+
+
 def step(osc, start, h, orders, late=None):
     """The set after the time h, and the enclosure on the way. late: the time of an h that is no part of pi.
 
@@ -100,6 +112,7 @@ def step(osc, start, h, orders, late=None):
     length = h.upper()
     span = arb(length / 2, (length / 2).upper())
     held = enclose(osc, box, phase, span)
+    left = dropped(osc, held, length) if osc.p == 2 and not osc.sign else (ZERO, ZERO)
     x, v, mu = (start.m[i, 0] for i in range(3))
     now, meanwhile = drive(osc, phase, order), drive(osc, phase + ball(osc.omega) * span, order + 1)
     remainder, slopes = taylor(osc, held.x, held.v, box[2], meanwhile, order + 1, tangents + 1)
@@ -108,8 +121,8 @@ def step(osc, start, h, orders, late=None):
     _, columns = taylor(osc, *box, now, tangents, tangents)
     tail = arb_mat([[b[tangents + 1] for b in slopes], [0, 0, 0], [0, 0, 0]]) * growth(osc, held, length)
     rows = [_sum(b, tail[0, j], h) for j, b in enumerate(columns)]
-    A = arb_mat([[row[0] for row in rows], [row[1] for row in rows], [0, 0, 1]])
-    return _transport(start, A, arb_mat([[y[0]], [y[1]], [mu]]), late), held
+    A = arb_mat([[row[i] + left[1] for row in rows] for i in (0, 1)] + [[0, 0, 1]])
+    return _transport(start, A, arb_mat([[y[0] + left[0]], [y[1] + left[0]], [mu]]), late), held
 
 
 def _sum(coefficients, last, h):

@@ -29,8 +29,8 @@ class Curve:
 def local_curve(osc, mu, spread, rest, r):
     """The Curve of an oscillator within r; mu, r : exact balls; rest : where in mu + spread its middle is. NotProved.
 
-    With M the derivative of the half map over the box, [[a, b], [c, d]] in the frame: the cone |eta| <= L |xi| is
-    mapped into itself and stretched, and the box covers itself (in by eta, out by xi): then the graph transform works.
+    With M the derivative of the half map over the box |xi|, |eta| <= r, [[a, b], [c, d]] in the frame: the cone
+    |eta| <= L |xi| lies in the box, is mapped into itself and stretched: then the graph transform works.
     """
     base = saddle(osc, mu, spread)
     start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), 0)
@@ -44,8 +44,7 @@ def local_curve(osc, mu, spread, rest, r):
     for step, holds in (
         ("the cone is mapped into itself", c + d * L < L * (least - b * L)),
         ("vectors of the cone are stretched", least - b * L > 1),
-        ("the box is left through xi", (least - b) * r > r),
-        ("the box is entered through eta", c + d < 1),
+        ("the cone lies in the box", L < 1),
         ("graphs of the cone draw together", d + b * L < 1),
     ):
         if not holds:
@@ -74,7 +73,7 @@ class Flight:
     """A piece of the manifold where it crosses v = 0.
 
     t, x : of the piece's middle at mu; time : of the whole; slope : dx/dt along the piece; by_mu : dx/dmu at fixed t;
-    rate : dt/dxi; F : the force there.
+    rate : dt/dxi.
     """
 
     t: arb
@@ -83,7 +82,6 @@ class Flight:
     slope: arb
     by_mu: arb
     rate: arb
-    F: arb
 
 
 def fly(curve, low, high, turn=0, orders=(16, 10)):
@@ -96,9 +94,7 @@ def fly(curve, low, high, turn=0, orders=(16, 10)):
     V, tilt = whole.derivative, around(curve.L)
     u_x, u_v = (V[i, 0] + tilt * V[i, 1] for i in (0, 1))
     rate = -u_v / whole.F
-    if not whole.F < 0:
-        raise NotProved(f"F < 0 where v = 0: F = {whole.F.str(5)}")
     if not rate < 0:
         raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")
     slope = -u_x * whole.F / u_v
-    return Flight(middle.t, middle.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate, whole.F)
+    return Flight(middle.t, middle.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate)

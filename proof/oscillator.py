@@ -1,6 +1,8 @@
 """The equation in exact numbers: its force, and the Taylor coefficients of a solution and of its derivatives.
 
-    x'' + alpha x'|x'|^(p-1) + delta x + gamma x^3 = mu cos(omega t),    p = 1 or 3: a polynomial field
+    x'' + alpha x'|x'|^(p-1) + delta x + gamma x^3 = mu cos(omega t),    p = 1, 2 or 3
+
+For p = 1 and 3 the field is a polynomial; for p = 2 it is one on each side of v = 0, and continuously differentiable.
 
 The parameters are rational. Backward in time, (x, v, t) -> (x, -v, -t), the equation is itself with -alpha, so the
 stable manifold of the oscillator is the unstable one of `reversed()`, mirrored: everything is computed once.
@@ -25,7 +27,8 @@ class NotProved(ArithmeticError):
 class Oscillator:
     """The parameters without the forcing amplitude, rational; direction -1: time runs backward.
 
-    Raises ValueError outside the theorems' reach: p in {1, 3}, alpha > 0, omega > 0, delta < 0 < gamma.
+    sign : for p = 2, that of v where it is known: the friction is sign v^2 at every v. 0: v |v|, no polynomial.
+    Raises ValueError outside the theorems' reach: p in {1, 2, 3}, alpha > 0, omega > 0, delta < 0 < gamma.
     """
 
     p: int = 1
@@ -34,10 +37,11 @@ class Oscillator:
     delta: Fraction = Fraction(-1)
     gamma: Fraction = Fraction(1)
     direction: int = 1
+    sign: int = 0
 
     def __post_init__(self):
-        if self.p not in (1, 3):
-            raise ValueError(f"p = {self.p!r}: covered are p = 1 and p = 3, where the field is a polynomial")
+        if self.p not in (1, 2, 3):
+            raise ValueError(f"p = {self.p!r}: covered are p = 1, 2 and 3, where the field is made of polynomials")
         for name, sign, allowed in SIGNS:
             value = exact(name, getattr(self, name))
             if not sign * value > 0:
@@ -82,14 +86,21 @@ def around(radius):
 def force(osc, x, v, mu, phase):
     """v' at states, forcing and phases in balls."""
     damping, delta, gamma = osc.coefficients
-    friction = v if osc.p == 1 else v * v * v  # not v**p, which is no number where a ball holds 0
-    return mu * phase.cos() - (delta + gamma * x * x) * x - damping * friction
+    return mu * phase.cos() - (delta + gamma * x * x) * x - damping * friction(osc, v)[0]
+
+
+def friction(osc, v):
+    """v |v|^(p-1) and its derivative, v in a ball; not v**p, which is no number where a ball holds 0."""
+    if osc.p == 2:
+        size = osc.sign * v if osc.sign else abs(v)
+        return v * size, 2 * size
+    return (v, ONE) if osc.p == 1 else (v * v * v, 3 * v * v)
 
 
 def stiffness(osc, x, v):
     """(-dv'/dx, -dv'/dv) at states in balls."""
     damping, delta, gamma = osc.coefficients
-    return delta + 3 * gamma * x * x, damping if osc.p == 1 else 3 * damping * v * v
+    return delta + 3 * gamma * x * x, damping * friction(osc, v)[1]
 
 
 def drive(osc, phase, order):
@@ -118,23 +129,21 @@ def taylor(osc, x, v, mu, cosine, order, tangents=0):
     a, rate, square, rate_square = [x, v], [v], [], []
     for k in range(order - 1):
         square.append(_product(a, a, k))
-        friction = rate[k]
-        if osc.p == 3:
-            rate_square.append(_product(rate, rate, k))
-            friction = _product(rate_square, rate, k)
+        rate_square.append(_product(rate, rate, k) if osc.p > 1 else ZERO)
+        slowing = (rate[k], osc.sign * rate_square[k], _product(rate_square, rate, k))[osc.p - 1]
         pull = delta * a[k] + gamma * _product(square, a, k)
-        a.append((mu * cosine[k] - pull - damping * friction) / ((k + 1) * (k + 2)))
+        a.append((mu * cosine[k] - pull - damping * slowing) / ((k + 1) * (k + 2)))
         rate.append((k + 2) * a[k + 2])
     if not tangents:
         return a, []
     pull = [3 * gamma * value for value in square]
     pull[0] += delta
-    friction = [3 * damping * value for value in rate_square]
+    slope = ([ONE], [2 * osc.sign * value for value in rate], [3 * value for value in rate_square])[osc.p - 1]
     columns = [[ONE, ZERO], [ZERO, ONE], [ZERO, ZERO]]
     for number, b in enumerate(columns):
         rate = [b[1]]
         for k in range(tangents - 1):
-            slowing = damping * rate[k] if osc.p == 1 else _product(friction, rate, k)
+            slowing = damping * _product(slope, rate, k)
             push = cosine[k] if number == 2 else ZERO
             b.append((push - _product(pull, b, k) - slowing) / ((k + 1) * (k + 2)))
             rate.append((k + 2) * b[k + 2])

@@ -29,7 +29,7 @@ class Setting:
     osc: Oscillator
     mu: Fraction
     spread: Fraction = NONE
-    depth: int = 13
+    depth: int = 15
     orders: tuple = (16, 10)
 
     def reversed(self):

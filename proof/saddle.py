@@ -13,6 +13,8 @@ from .lohner import solution_set
 from .oscillator import NotProved, around
 
 ORDERS = (20, 16)
+WIDE = 1e-4  # half an interval of forcing amplitudes that is divided
+RADIUS = 1e-4  # of the box that is proved to hold one fixed point
 ZERO = arb_mat(3, 3)
 NOTHING = arb(0)
 ONE = arb_mat([[1, 0], [0, 1]])
@@ -22,17 +24,15 @@ ONE = arb_mat([[1, 0], [0, 1]])
 class Saddle:
     """The saddle orbit at phase 0 for the forcing amplitudes mu + spread.
 
-    z : (x, v) at mu, a ball; slope : dz/dmu over the interval; box : the radius within which it is the only one;
-    frame : columns near the eigenvectors of Q, unstable first, exact; eigenvalues : nearly.
+    z : (x, v) at mu, a ball, the only one within RADIUS; slope : dz/dmu over the interval;
+    frame : columns near the eigenvectors of Q, unstable first, exact.
     """
 
     mu: arb
     spread: arb
     z: arb_mat
     slope: arb_mat
-    box: arb
     frame: arb_mat
-    eigenvalues: tuple
 
 
 def half_map(osc, z, mu, spread, drift):
@@ -49,55 +49,42 @@ def columns(matrix, first, last):
     return arb_mat([row[first:last] for row in matrix.tolist()[:2]])
 
 
-def saddle(osc, mu, spread=NOTHING, parts=8):
-    """The Saddle of an oscillator. mu : exact ball; spread : ball around 0. Raises NotProved.
-
-    dz/dmu is enclosed on `parts` parts of a wide interval by itself, which is sharper.
-    """
+def saddle(osc, mu, spread=NOTHING):
+    """The Saddle of an oscillator. mu : exact ball; spread : ball around 0. Raises NotProved."""
     z, inverse, drift = _newton(osc, mu)
-    radius = arb("0.001").upper()
-    held = _fixed(osc, z, mu, arb(0), drift, inverse, radius)
-    _, slope, by_mu = half_map(osc, z, mu, (held[0, 0], held[1, 0], 0), drift)
-    slope = drift + (ONE - slope).inv() * (by_mu - drift)
-    if spread.rad() > 0:
-        slope = _slope(osc, mu, spread, radius, parts if spread.rad() > 1e-6 else 1, z)
-    frame, values = _eigenframe(half_map(osc, z, mu, (0, 0, 0), drift)[1].mid())
-    return Saddle(mu, spread, z + held, slope, radius, frame, values)
+    held = _fixed(osc, z, mu, arb(0), drift, inverse)
+    frame = _eigenframe(half_map(osc, z, mu, (0, 0, 0), drift)[1].mid())
+    return Saddle(mu, spread, z + held, _slope(osc, mu, spread), frame)
 
 
-def _slope(osc, mu, spread, radius, parts, near):
-    """dz/dmu for every forcing amplitude of mu + spread, proved part by part."""
-    slopes = []
-    for k in range(parts):
-        part = arb((mu + spread.rad() * (2 * k + 1 - parts) / parts).mid(), 0)
-        share = around((spread.rad() / parts * 1.01).upper())
-        z, inverse, drift = _newton(osc, part, near, 4)
-        held = _fixed(osc, z, part, share, drift, inverse, radius)
-        _, slope, by_mu = half_map(osc, z, part, (held[0, 0], held[1, 0], share), drift)
-        slopes.append(drift + (ONE - slope).inv() * (by_mu - drift))
-    together = slopes[0]
-    for slope in slopes[1:]:
-        together = arb_mat([[together[i, 0].union(slope[i, 0])] for i in (0, 1)])
-    return together
+def _slope(osc, mu, spread):
+    """dz/dmu for each forcing amplitude of mu + spread; where that is wide, of its parts by themselves: sharper."""
+    if spread.rad() > WIDE:
+        quarter = (spread.rad() / 2).upper()
+        first, last = (_slope(osc, (mu + sign * quarter).mid(), around(1.01 * quarter)) for sign in (-1, 1))
+        return arb_mat([[first[i, 0].union(last[i, 0])] for i in (0, 1)])
+    z, inverse, drift = _newton(osc, mu)
+    near = _fixed(osc, z, mu, spread, drift, inverse)
+    _, slope, by_mu = half_map(osc, z, mu, (near[0, 0], near[1, 0], spread), drift)
+    return drift + (ONE - slope).inv() * (by_mu - drift)
 
 
-def _newton(osc, mu, z=None, rounds=8):
+def _newton(osc, mu):
     """(z, (1 - DQ)^-1, dz/dmu) at the fixed point, nearly: points."""
-    nothing = arb_mat(2, 1)
-    z = nothing if z is None else z
-    for _ in range(rounds):
+    z = nothing = arb_mat(2, 1)
+    for _ in range(8):
         image, slope, by_mu = half_map(osc, z, mu, (0, 0, 0), nothing)
         inverse = (ONE - slope).inv().mid()
         z = (z - inverse * (z - image)).mid()
     return z, inverse, (inverse * by_mu).mid()
 
 
-def _fixed(osc, z, mu, spread, drift, inverse, radius):
-    """The box about z + drift (mu' - mu) that holds the one fixed point within the radius, for each mu'."""
-    box = arb_mat([[around(radius)]] * 2)
+def _fixed(osc, z, mu, spread, drift, inverse):
+    """The box about z + drift (mu' - mu) that holds the one fixed point within RADIUS, for each mu'."""
+    box = arb_mat([[around(RADIUS)]] * 2)
     held = _krawczyk(osc, z, mu, spread, drift, inverse, box)
     if not all(box[i, 0].contains_interior(held[i, 0]) for i in (0, 1)):
-        raise NotProved(f"Krawczyk: the box of radius {radius.str(3)} has an image of {held[0, 0].str(3)}")
+        raise NotProved(f"Krawczyk: the box of radius {RADIUS} has an image of {held[0, 0].str(3)}")
     for _ in range(4):  # what is fixed in a box lies in the box's image
         held = _krawczyk(osc, z, mu, spread, drift, inverse, held)
     return held
@@ -117,10 +104,9 @@ def _eigenframe(M):
     half, det = (M[0, 0] + M[1, 1]) / 2, M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
     root = (half * half - det).sqrt()
     large = half - root if half < 0 else half + root
-    values = [large.mid(), (det / large).mid()]
     columns = []
-    for value in values:
+    for value in (large.mid(), (det / large).mid()):
         a, b = M[0, 1].mid(), (value - M[0, 0]).mid()
         size = (a * a + b * b).sqrt() * (1 if a > 0 else -1)
         columns.append(((a / size).mid(), (b / size).mid()))
-    return arb_mat([[columns[0][i], columns[1][i]] for i in (0, 1)]), tuple(values)
+    return arb_mat([[columns[0][i], columns[1][i]] for i in (0, 1)])

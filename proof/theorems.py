@@ -1,33 +1,30 @@
 """The theorems on one oscillator, and how each is found: below, above and between two forcing amplitudes."""
 
 from fractions import Fraction
+from math import exp
 
-from flint import ctx
-
-from .contact import contact, meeting
 from .cover import cover, domain
-from .oscillator import NotProved, ball
-from .pieces import BITS, UNIT, Setting, curve, difference, flown, inner, piece
-from .rational import fraction, period, point, written
+from .oscillator import NotProved
+from .pieces import UNIT, Setting, curve, difference, factor, flown, inner, piece
+from .rational import period, point, read, written
+from .saddle import RADIUS
 
-SHARE = Fraction(48, 10**10)  # (mu_t - mu_low) / mu_t, and the same above
 FINE = {"depth": 17, "orders": (24, 12)}
+NEAR = 2e-7  # half the time that a piece about the transverse intersection takes to cross
 
 
-def prove(osc, guess, each=map, tick=lambda: None):
-    """The certificate of an oscillator: a dict of JSON's types. guess : a forcing amplitude near the tangency.
+def prove(osc, low, high, time, each=map, tick=lambda: None):
+    """The certificate of an oscillator: a dict of JSON's types. Raises NotProved: which step, and the width it had.
 
-    Raises NotProved, with the step that failed and the width it had.
+    low, high : forcing amplitudes about the tangency; time : of a primary intersection at high, nearly.
     """
-    mu, time, bend = contact(osc, guess)
-    low, high = (Fraction(round(mu * (1 + share) * 10**16), 10**16) for share in (-SHARE, SHARE))
     return {
         "oscillator": {name: str(getattr(osc, name)) for name in ("p", "alpha", "omega", "delta", "gamma")},
         "low": str(low),
         "high": str(high),
         "saddle": saddle_orbit(Setting(osc, high, **FINE)),
         "below": below(Setting(osc, low), each, tick),
-        "above": above(Setting(osc, high, **FINE), time, bend),
+        "above": above(Setting(osc, high, **FINE), time),
         "between": between(Setting(osc, (low + high) / 2, (high - low) / 2), each, tick),
     }
 
@@ -36,7 +33,7 @@ def saddle_orbit(setting):
     """Where the saddle orbit is at phase 0, the radius in which it is the only one, what its half map stretches by."""
     here = curve(setting)
     x, v = (written(here.saddle.z[i, 0]) for i in (0, 1))
-    return {"x": x, "v": v, "box": written(here.saddle.box), "stretch": written(here.factor), "slope": written(here.L)}
+    return {"x": x, "v": v, "box": str(RADIUS), "stretch": written(here.factor), "slope": written(here.L)}
 
 
 def below(setting, each=map, tick=lambda: None):
@@ -45,42 +42,34 @@ def below(setting, each=map, tick=lambda: None):
     return {"depth": setting.depth, "unstable": unstable, "stable": stable, "gap": f"{float(least):.3e}"}
 
 
-def above(setting, time, bend):
-    """A transverse primary intersection: a thin piece of each manifold about a zero of x_u - x_s.
-
-    time : of the greatest x_u - x_s, nearly; bend : its second derivative there.
-    """
-    with ctx.workprec(BITS):
-        near = meeting(setting, time, None)
-        away = (-2 * near.apart / bend).sqrt()
-        time = (time + away).mid()
-        for _ in range(4):
-            near = meeting(setting, time, near)
-            time = (time - near.apart / near.slope).mid()
-        near, half = meeting(setting, time, near), away / 500
-        records = []
-        for side, xi in ((setting, near.unstable), (setting.reversed(), near.stable)):
-            here = curve(side)
-            width = half / (here.r * flown_rate(side, xi))
-            middle = xi / here.r
-            ends = (fraction(((middle + sign * width) * UNIT).floor().mid()) for sign in (-1, 1))
-            records.append(flown(side, 0, *map(int, ends)))
-        u, s = map(piece, records)
-        turns = round((u.t.middle + s.t.middle) / period(setting.osc.omega).middle)
-        turn = period(setting.osc.omega) * point(turns)
-        inside = [inner(setting, u), turn - inner(setting, s)]
-        ends = max(i.low for i in inside), min(i.high for i in inside)
-        result = {"depth": setting.depth, "unstable": records[0], "stable": records[1], "turns": turns}
-        result["times"] = [f"{float(t):.15f}" for t in (ends[0] * 9 + ends[1], ends[0] + ends[1] * 9) for t in [t / 10]]
-    transverse(setting, result)
-    return result
+def above(setting, time):
+    """A transverse primary intersection near a time of crossing: a thin piece of each manifold about it."""
+    records = thin(setting, time), thin(setting.reversed(), -time)
+    u, s = map(piece, records)
+    turns = round((u.t.middle + s.t.middle) / period(setting.osc.omega).middle)
+    inside = inner(setting, u), period(setting.osc.omega) * point(turns) - inner(setting, s)
+    first, last = max(one.low for one in inside), min(one.high for one in inside)
+    times = [f"{float((share * first + (10 - share) * last) / 10):.15f}" for share in (9, 1)]
+    found = {"depth": setting.depth, "unstable": records[0], "stable": records[1], "turns": turns, "times": times}
+    transverse(setting, found)
+    return found
 
 
-def flown_rate(setting, xi):
-    """|dt/dxi| at a point of the manifold, nearly."""
-    here = curve(setting)
-    n = int(fraction((xi / here.r * UNIT).floor().mid()))
-    return ball(-piece(flown(setting, 0, n, n)).rate.middle)
+def thin(setting, time):
+    """The record of a piece that crosses within NEAR of a time, modulo the period. Raises NotProved."""
+    turn, stretch = float(period(setting.osc.omega).middle), float(read(factor(setting)).middle)
+    n = UNIT // 4
+    for _ in range(20):
+        one = piece(flown(setting, 0, n, n))
+        late = (float(one.t.middle) - time + turn / 2) % turn - turn / 2
+        rate = float(one.rate.middle) * 2.0**-setting.depth / UNIT
+        if abs(late) < NEAR / 100:
+            half = round(-NEAR / rate)
+            return flown(setting, 0, n - half, n + half)
+        n = round(n * exp(-late / (n * rate)))
+        while n > UNIT:
+            n = round(n / stretch**2)
+    raise NotProved(f"no piece is found that crosses at the time {time}: {late:.1e} away")
 
 
 def transverse(setting, found):

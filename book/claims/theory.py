@@ -166,7 +166,7 @@ def _critical_amplitude():
     return decide(
         proved and digits >= 40,
         f"Derived for every p > −1 (sympy); quadrature of Eq. 9 agrees to {digits} digits. As a statement on the manifolds it is first "
-        "order: the tangency's place is proved at p = 1 and 3 (chapter “What is proved”), computed elsewhere.",
+        "order: the first tangency's place is proved at p = 1, 2 and 3 (chapter on the proof), computed elsewhere.",
     )
 
 
