@@ -35,6 +35,8 @@ def test_the_readmes_two_and_a_half_per_cent_and_tenth_of_a_per_cent_hold_where_
     osc = Duffing(p=np.array([0.1, 1.0]))
     off = np.abs(homoclinic_tangency(osc) / critical_amplitude(osc) - 1)
     assert 0.01 < off[0] < 0.025 and off[1] < 0.001  # at p = 0.1 not "a fraction of a per cent"
+    rest = Duffing(p=np.array([0.4, 0.6, 0.8, 1.25, 2.0, 3.0]))  # "within a fraction of a per cent from p = 0.4 on"
+    assert np.abs(homoclinic_tangency(rest) / critical_amplitude(rest) - 1).max() < 0.01
     slow = Duffing(omega=0.2)
     assert homoclinic_tangency(slow) / critical_amplitude(slow) < 0.97  # "at low frequencies the difference is larger"
 
@@ -168,6 +170,12 @@ def test_the_three_pairs_beside_the_likely_ones_miss_the_transient_of_fig_5b():
     found = missing_parameters.evidence(*np.transpose(plane.PAIRS))
     transient = inference.probabilities(found)["transient"]
     assert transient[:3].min() > 0.9 and transient[3:].max() < 0.01
+
+
+def test_a_window_exists_from_the_frequencies_on_that_the_readme_names():
+    for p, last, first in ((0.1, 0.9905, 0.995), (1.0, 1.0, 1.0045)):
+        omega = (last, first, 1.05, 1.1, 1.16, 1.23)
+        assert plane.leaks_at_fold(0.1, omega, p).tolist() == [True] + 5 * [False]
 
 
 def test_the_apexes_of_both_exponents_change_their_order_with_alpha():
