@@ -103,7 +103,7 @@ def folds(p=P_CRISIS, osc=paper.OSCILLATOR):
 
 
 @remembered
-def crises(p=P_CRISIS, points=400, steps=6, by_step=False, osc=paper.OSCILLATOR):
+def crises(p=P_CRISIS, points=800, steps=6, by_step=False, osc=paper.OSCILLATOR):
     """The forcing (n,) of the boundary crisis for each p of the tuple, within 0.008 / 2^steps.
 
     In friction time for p < 1; by_step : by the paper's step throughout, for comparison
