@@ -129,6 +129,11 @@ def test_chaos_attracts_beside_the_small_orbits_in_narrow_intervals_only():
     found = plane.lasting(0.1, 1.0, 1.0, mu, columns=8, rows=5, periods=3000)
     assert np.all(found.across[[0, 3]] == 0) and np.all((found.across[1:3] > 0.1) & (found.across[1:3] < 0.5))
     assert np.all(cascade.small_folds(0.1, 1.0, 1.0) > mu[-1] + 0.02)
+    for alpha, omega in ((0.25, 1.0), (0.13, 1.0), (0.1, 1.01), (0.1, 1.15)):
+        born = cascade.cascade(alpha, omega, 1.0)
+        mu = np.round(np.arange(0.1, max(born.fold[0], born.accumulation[0]) - 0.0015, 0.0005), 5)
+        met = plane.lasting(alpha, omega, 1.0, tuple(mu), columns=4, rows=2, periods=2500).across > 0
+        assert met.any() and not np.any(met[:-2] & met[1:-1] & met[2:])
 
 
 def test_at_the_adopted_pair_there_is_a_window_at_the_largest_exponents_too():
