@@ -139,6 +139,8 @@ def test_chaos_attracts_beside_the_small_orbits_in_narrow_intervals_only():
 def test_at_the_adopted_pair_there_is_a_window_at_the_largest_exponents_too():
     leaks = {p: bool(plane.leaks_at_fold(0.1, 1.0, p)[0]) for p in (0.1, 0.5, 0.7, 1.0, 2.0, 2.7, 3.0)}
     assert [p for p, early in leaks.items() if early] == [0.7, 1.0, 2.0]
+    at_1_003 = [plane.leaks_at_fold(0.1, 1.003, p)[0] for p in (1.0, 1.5, 3.0)]
+    assert at_1_003 == [False, True, False]  # the apex is highest between
     fold = cascade.small_folds(0.1, 1.0, 3.0)[0]
     mu = (fold + 0.001, 0.255, 0.263)
     across = plane.lasting(0.1, 1.0, 3.0, mu, columns=4, rows=3, periods=3000).across
