@@ -19,7 +19,9 @@ from .survival import exponential, rate
 
 SINCE = 20  # periods before a transient is chaotic: orbits that start in a basin's interior are captured sooner
 # A coarse bracket of the crisis for each exponent, and where the small orbits are met on their way to the fold.
-P_CRISIS, BELOW, ABOVE = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0), (0.270, 0.259, 0.252, 0.248, 0.243, 0.240, 0.239), 0.008
+P_CRISIS = (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0)
+BELOW = (0.270, 0.259, 0.252, 0.248, 0.243, 0.240, 0.239, 0.244, 0.256)
+ABOVE = 0.008
 FAR = 0.22
 
 
@@ -101,7 +103,7 @@ def folds(p=P_CRISIS, osc=paper.OSCILLATOR):
 
 
 @remembered
-def crises(p=P_CRISIS, points=400, steps=6, by_step=False, osc=paper.OSCILLATOR):
+def crises(p=P_CRISIS, points=800, steps=6, by_step=False, osc=paper.OSCILLATOR):
     """The forcing (n,) of the boundary crisis for each p of the tuple, within 0.008 / 2^steps.
 
     In friction time for p < 1; by_step : by the paper's step throughout, for comparison

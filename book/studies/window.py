@@ -103,13 +103,8 @@ def order():
     return Order(p, critical_amplitude(replace(paper.OSCILLATOR, p=p)), transients.folds()[0], transients.crises())
 
 
-def sign_change(x, y):
-    """The x at which y, positive at first, reaches zero, its points (n,) joined by straight lines.
-
-    Raises ValueError where y does not change its sign that way.
-    """
+def sign_changes(x, y):
+    """The x (k,) at which y changes its sign, its points (n,), none of them zero, joined by straight lines."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    if y[0] <= 0 or not np.any(y < 0):
-        raise ValueError(f"y = {y}: must begin above 0 and go below it")
-    k = int(np.flatnonzero(y < 0)[0])
-    return float(x[k - 1] + y[k - 1] / (y[k - 1] - y[k]) * (x[k] - x[k - 1]))
+    k = np.flatnonzero(y[1:] * y[:-1] < 0)
+    return x[k] + y[k] / (y[k] - y[k + 1]) * (x[k + 1] - x[k])
