@@ -49,6 +49,8 @@ def map_chunks(run, columns, t, steps_per_period, threads, lanes, width):
         run(members, padded, np.ascontiguousarray(h[:, clock[padded]]), _damping_law(p), forcings[kind])
 
     blocks = [(*key, np.array(m[i : i + lanes])) for key, m in groups.items() for i in range(0, len(m), lanes)]
+    if len(blocks) == 1:  # in the caller's thread, where Ctrl-C reaches it
+        return run_block(*blocks[0])
     with ThreadPoolExecutor(threads) as pool:
         list(pool.map(run_block, *zip(*blocks, strict=True)))
 
