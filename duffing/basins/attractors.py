@@ -97,7 +97,7 @@ def settle(
     osc : a single oscillator; states : (2, N) at the forcing phase `phase` (radian)
     attractors : known ones, as from `find_attractors`; periodic ones that are not among them are found on the way and
         come after them; periods : the most that a state is followed
-    executor, progress, checkpoint : as for `over_blocks`, which is called once between two searches for
+    executor, progress, checkpoint : as for `duffing.blocks.over_blocks`, which is called once between two searches for
         attractors not yet known (after 32, 64, 128 ... periods), with the states that nothing has caught
     options, errors : method and options as for `duffing.flow.integrate`
     """
@@ -122,11 +122,11 @@ def _settle(osc, now, attractors, periods, phase, run, options):
     run : how, for `over_blocks`
     """
     checks.single(osc)
-    checks.count("periods", periods)
+    periods = checks.count("periods", periods)
     labels, caught = np.full(now.shape[1], UNRESOLVED), np.full(now.shape[1], np.inf)
     live, streaks = np.arange(now.shape[1]), np.zeros((len(attractors), now.shape[1]))
     first, search = 0, 2 * LONGEST
-    start = checks.parameter("phase", phase) % (2 * np.pi) / osc.omega
+    start = checks.number("phase", phase) % (2 * np.pi) / osc.omega
     while True:
         last = min(search, periods)
         regions = tuple((one.period, one.region) for one in attractors)
