@@ -70,7 +70,7 @@ def _steps(omega, t, steps_per_period):
     phases = np.rint(turns * GRID)
     spans = np.diff(phases, axis=0)
     # Whole periods are whole whatever the round-off in t: their step is the same at any time.
-    lengths = np.where(spans % GRID == 0, spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
+    lengths = np.where((spans > 0) & (spans % GRID == 0), spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
     known, kinds, forcings = {}, [], []
     for c in range(len(omega)):
         key = (phases[:-1, c] % GRID).tobytes() + spans[:, c].tobytes() + counts[:, c].tobytes()
