@@ -136,9 +136,9 @@ def starts(value, name="starts"):
 
 def times(value, name="t"):
     """Increasing finite times, as float array (n,), n >= 1."""
-    array = floats(name, value, "increasing finite times")
+    array = floats(name, value, "increasing finite numbers")
     if array.ndim != 1 or array.size == 0:
-        raise ValueError(f"{name} has shape {array.shape}: must be a sequence of at least one time")
+        raise ValueError(f"{name} has shape {array.shape}: must be a sequence of at least one number")
     if not np.all(np.isfinite(array)) or not np.all(np.diff(array) > 0):
         raise ValueError(f"{name} = {value}: must be finite and strictly increasing")
     return array

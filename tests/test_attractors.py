@@ -30,6 +30,12 @@ def test_without_forcing_a_start_below_the_saddle_ends_in_its_own_well():
     np.testing.assert_array_equal(settle(osc, states, attractors, **RK4).labels, states[0] > 0)
 
 
+@pytest.mark.parametrize("x", np.linspace(0.85, 1.35, 11))
+def test_without_damping_nothing_attracts(x):
+    """A found failure: the tangents of regular motion grow in proportion to time, for some starts evenly enough."""
+    assert find_attractors(Duffing(alpha=0.0, mu=0.02), [[x], [0.1]], periods=40) == ()
+
+
 def test_multipliers_at_the_bottom_of_a_well_are_those_of_the_linear_equation():
     right = find_attractors(Duffing(), **RK4)[1]
     np.testing.assert_allclose(np.abs(right.multipliers), np.exp(-0.1 * np.pi), rtol=1e-6)

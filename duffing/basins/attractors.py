@@ -77,7 +77,7 @@ def find_attractors(osc, starts=None, periods=400, **options):
     osc : a single oscillator; starts : (2, M) at phase 0, by default a grid of 16 x 12 over |x| <= 1.6, |v| <= 1.2
     periods : that a start is followed. What is left then, at most 32 states, is followed for 500 more; when none of
         them is caught in that time and their largest exponents are positive by three standard errors, they are on a
-        chaotic attractor (a transient would have to last some thousand periods on average); otherwise on none.
+        chaotic attractor (a transient would have to last some thousand periods on average); else, or undamped, on none.
     options : method and options as for `duffing.flow.integrate`
 
     No search from finitely many starts can promise to be complete: `settle` goes on looking. Chaotic attractors in the
@@ -187,7 +187,8 @@ def _chaotic(osc, states, known, options):
     sample = states[:, :: -(-states.shape[1] // _WITNESSES)]
     points = points_of(osc, sample, _PROOF, options)
     regions = [(one.period, one.region) for one in known]
-    if np.any(first_capture(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED):
+    caught = first_capture(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED
+    if osc.alpha == 0 or caught.any():
         return ()
     spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=200, transient=0, k=1, **options)
     if np.any(spectrum.exponents <= 3 * spectrum.error):
