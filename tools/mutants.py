@@ -88,6 +88,7 @@ MUTANTS = (
     Mutant("duffing.integrators.friction_time.scheduler", "a lane that moves leaves its parameters behind", "range(0, BLOCK, WIDTH)", "range(0, 8 * WIDTH, WIDTH)", ("tests/test_lanes.py",)),
     Mutant("duffing.integrators.friction_time.event_location", "the last shift the wrong way", "shift * rate[row, l]", "-shift * rate[row, l]", ("tests/test_friction.py", "tests/test_lanes.py")),
     Mutant("duffing.orbits.periodic", "the half map's change of sign", "sign = (-1) ** halves", "sign = 1 ** halves"),
+    Mutant("duffing.basins.attractors", "regular motion is chaotic", "np.maximum(3 * spectrum.error, least)", "3 * spectrum.error"),
     Mutant("duffing.basins.attractors", "chaotic attractors without damping", "osc.alpha == 0 or caught", "caught"),
     Mutant("duffing.basins.capture", "a capture one period too early", "done - points.shape[1] + 1 + when", "done - points.shape[1] + when", ("tests/test_attractors.py",)),
     Mutant("duffing.sweep.families", "members come back to other places", "self.result[..., self.members(start)] = array", "self.result[..., start : start + array.shape[-1]] = array"),

@@ -20,7 +20,8 @@ from .trapping import Trap, trap
 CELL = 0.02  # width of a chaotic attractor's cells in x and v
 LONGEST, NEAR = 16, 1e-2  # longest period looked for, and how nearly a state must return for Newton's method to try
 _SAMPLE = 24  # states not yet caught that a search takes
-_WITNESSES, _PROOF = 32, 500  # chaotic orbits followed, and the periods for which none of them may be caught
+# Chaotic orbits followed, the periods for which none of them may be caught, and those over which they are stretched.
+_WITNESSES, _PROOF, _STRETCH = 32, 500, 200
 
 
 class Cells(NamedTuple):
@@ -76,8 +77,9 @@ def find_attractors(osc, starts=None, periods=400, **options):
 
     osc : a single oscillator; starts : (2, M) at phase 0, by default a grid of 16 x 12 over |x| <= 1.6, |v| <= 1.2
     periods : that a start is followed. What is left then, at most 32 states, is followed for 500 more; when none of
-        them is caught in that time and their largest exponents are positive by three standard errors, they are on a
-        chaotic attractor (a transient would have to last some thousand periods on average); else, or undamped, on none.
+        them is caught in that time and their largest exponents are positive, by three standard errors and by more than
+        regular motion has in so short a time, they are on a chaotic attractor (a transient would have to last some
+        thousand periods on average); otherwise, or without damping, on none.
     options : method and options as for `duffing.flow.integrate`
 
     No search from finitely many starts can promise to be complete: `settle` goes on looking. Chaotic attractors in the
@@ -190,8 +192,10 @@ def _chaotic(osc, states, known, options):
     caught = first_capture(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED
     if osc.alpha == 0 or caught.any():
         return ()
-    spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=200, transient=0, k=1, **options)
-    if np.any(spectrum.exponents <= 3 * spectrum.error):
+    spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=_STRETCH, transient=0, k=1, **options)
+    # The tangents of regular motion grow as well, in proportion to time: chaos stretches them by more than its square.
+    least = 2 * np.log(_STRETCH) / (_STRETCH * osc.period)
+    if np.any(spectrum.exponents <= np.maximum(3 * spectrum.error, least)):
         return ()
     half = integrate(osc.repeated(sample.shape[1]), sample, np.linspace(0, 10, 161) * osc.period, **options).states
     mirror = -integrate(osc.repeated(sample.shape[1]), sample, np.array([0.0, osc.period / 2]), **options).states[:, 1]

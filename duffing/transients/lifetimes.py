@@ -38,19 +38,9 @@ class Lifetimes(NamedTuple):
 
 
 def lifetimes(
-    osc,
-    state,
-    periods=1000,
-    settling=150,
-    radius=0.1,
-    tolerance=1e-4,
-    block=40,
-    tangents=0,
-    executor=None,
-    progress=None,
-    checkpoint=None,
-    **options,
-):
+    osc, state, periods=1000, settling=150, radius=0.1, tolerance=1e-4, block=40, tangents=0,
+    executor=None, progress=None, checkpoint=None, **options,
+):  # the problem, then how it is run  # fmt: skip
     """Lifetimes up to `periods` of the family's orbits from `state` at t = 0.
 
     state : (2,) for all members or (2, *family)
