@@ -2,7 +2,8 @@
 
 A periodic attractor has caught a state when the state lies in its trapping disk (`trapping`), which the flow carries
 into itself. A chaotic one, when the state has stayed in the cells that the attractor visits for STREAK periods on end.
-What is not caught is not given away: it is searched for orbits not yet known, and what is left is UNRESOLVED.
+What is not caught is not given away: it is searched for orbits not yet known, and what is left is UNRESOLVED. Lengths
+in (x, v) are for wells about as large as those of delta = -1, gamma = 1; for others see `Duffing.dimensionless`.
 """
 
 from typing import NamedTuple
