@@ -63,7 +63,7 @@ def over_blocks(
         without arguments that makes one; None is threads here
     progress : True, a bar where somebody watches; or called as progress(done, total) with numbers of members
     checkpoint : a folder for finished tasks, from which the same call goes on where an earlier one ended
-    on_failure : "raise", or "nan": see `answers`; then rows is the shape of a member's result
+    on_failure : "raise", or "nan": members without an answer are NaN, and one warning says so; rows : a member's shape
 
     Returns the array over all members, the same bit for bit whatever the block, executor and checkpoint. Memory beyond
     it and the family is that of the tasks under way, at most `workers.IN_FLIGHT`.

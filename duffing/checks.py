@@ -15,7 +15,7 @@ def floats(name, value, allowed, kinds="iuf"):
         array = np.asarray(value)
     except ValueError:  # ragged
         raise ValueError(f"{name} = {value!r}: must be {allowed}") from None
-    if array.dtype.kind not in kinds:
+    if array.dtype.kind not in kinds or np.ma.is_masked(value):  # what a mask hides is no number
         raise ValueError(f"{name} = {value!r}: must be {allowed}")
     return array.astype(float)
 
@@ -48,7 +48,7 @@ def parameter(name, value, allowed="a finite number", lower=None, strict=False):
 
 def model(osc):
     """An oscillator: anything else is refused by name before somebody asks it for its shape."""
-    if not hasattr(osc, "columns"):
+    if isinstance(osc, type) or not hasattr(osc, "columns"):
         raise ValueError(f"osc = {osc!r}: must be a Duffing oscillator")
     return osc
 
@@ -70,7 +70,7 @@ def number(name, value, allowed="a finite number", lower=None, strict=False):
 
 def count(name, value, least=1):
     """A whole number >= least, as int."""
-    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer) or not least <= value <= MOST:
+    if type(value) in (bool, np.timedelta64) or not isinstance(value, int | np.integer) or not least <= value <= MOST:
         raise ValueError(f"{name} = {value!r}: must be a whole number >= {least} (and <= 2^53)")
     return int(value)
 
@@ -125,10 +125,10 @@ def state(value, shape, name="state"):
 
 
 def starts(value, name="starts"):
-    """States (x, v) of M motions, none or more: float array (2, M)."""
+    """States (x, v) of M >= 1 motions: float array (2, M)."""
     array = floats(name, value, "finite states (2, M)")
-    if array.ndim != 2 or len(array) != 2:
-        raise ValueError(f"{name} has shape {array.shape}: must be (2, M), x and v of each start")
+    if array.ndim != 2 or len(array) != 2 or array.size == 0:
+        raise ValueError(f"{name} has shape {array.shape}: must be (2, M), M >= 1, x and v of each start")
     if not np.all(np.isfinite(array)):
         raise ValueError(f"{name} = {value}: must be finite")
     return array
@@ -136,9 +136,9 @@ def starts(value, name="starts"):
 
 def times(value, name="t"):
     """Increasing finite times, as float array (n,), n >= 1."""
-    array = floats(name, value, "increasing finite times")
+    array = floats(name, value, "increasing finite numbers")
     if array.ndim != 1 or array.size == 0:
-        raise ValueError(f"{name} has shape {array.shape}: must be a sequence of at least one time")
+        raise ValueError(f"{name} has shape {array.shape}: must be a sequence of at least one number")
     if not np.all(np.isfinite(array)) or not np.all(np.diff(array) > 0):
         raise ValueError(f"{name} = {value}: must be finite and strictly increasing")
     return array

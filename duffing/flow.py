@@ -19,7 +19,7 @@ def integrate(osc, state, t, tangents=0, method="auto", **options):
     t : (n,) times for all members or (n, N), one column a member
     method : "rk4", the paper's algorithm (option steps_per_period=500); "friction", the adaptive integrator of order
         eight, in friction time unless the damping is smooth in v (p = 1, 3, 5 ...); "auto" is "friction"
-    options : passed on to the integrator
+    options : of the integrator: of rk4 steps_per_period, else rtol=1e-10, atol=1e-12, max_steps, switch; threads
 
     Returns a `Solution`. Raises ValueError for invalid input, DivergedError or ConvergenceError for no answer.
     """
@@ -41,14 +41,14 @@ def trajectory(osc, state, t, method="auto", on_failure="raise", **options):
 
     state : (2,) for all members or (2, *family)
     on_failure : "raise", or "nan": members that diverge or do not converge are NaN, and one warning says so
-    method, options, errors : as for `integrate`
+    method, options, errors : as for `duffing.flow.integrate`
     """
     checks.model(osc)
     t = checks.times(t)
     state = checks.state(state, osc.shape)
 
     def states(members):
-        return integrate(osc.members(members), state[:, members], t, method=method, **options).states
+        return integrate(osc.members(members), state[:, members], t, 0, method, **options).states
 
     return answered(states, osc, (2, t.size), on_failure).reshape(2, t.size, *osc.shape)
 

@@ -29,7 +29,7 @@ def lyapunov_spectrum(
     periods, transient : forcing periods averaged over and, before them, thrown away
     k : 1 (the largest alone, cheaper) or 2
     method, options : as for `duffing.flow.integrate`; method="rk4" with transient=0 is the paper's algorithm
-    executor, progress, checkpoint : as for `over_blocks`: where it runs, whether it shows how far it is,
+    executor, progress, checkpoint : as for `duffing.blocks.over_blocks`: where it runs, whether it shows how far it is,
         and the folder from which it can be resumed
     on_failure : "raise", or "nan": members that diverge or do not converge are NaN, and one warning says so
     history : False leaves out the running estimates, which for a large family need the most memory
@@ -44,8 +44,7 @@ def lyapunov_spectrum(
     checks.model(osc)
     if checks.count("k", k) > 2:
         raise ValueError(f"k = {k}: must be 1 or 2, the number of exponents of a plane map")
-    checks.count("periods", periods)
-    checks.count("transient", transient, least=0)
+    periods, transient = checks.count("periods", periods), checks.count("transient", transient, least=0)
     state = checks.state(state, osc.shape)
     task = {"periods": periods, "transient": transient, "k": k, "method": method, "history": bool(history), **options}
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint, "on_failure": on_failure}
@@ -60,8 +59,7 @@ def two_trajectory_exponent(osc, state=(0.45, 0.1), periods=200, transient=40, d
     Arguments and result as for `lyapunov_spectrum` with k = 1; d0 : the distance of the trajectories (at first in x).
     """
     checks.model(osc)
-    checks.count("transient", transient, least=0)
-    checks.positive("d0", d0)
+    transient = checks.count("transient", transient, least=0)
     total = transient + checks.count("periods", periods)
     growth = two_trajectory_growth(osc, checks.state(state, osc.shape), total, d0=d0, steps_per_period=steps_per_period)
     return averages(growth[None, transient:].reshape(1, periods, *osc.shape), osc.period)

@@ -41,12 +41,9 @@ class Duffing:
             "p": {"allowed": "a finite number > 0", "lower": 0, "strict": True},
             "omega": {"allowed": "a finite number > 0", "lower": 0, "strict": True},
         }
-        for name in FIELDS:
-            checked = checks.parameter(name, getattr(self, name), **allowed.get(name, {}))
-            object.__setattr__(self, name, checked)
+        checked = [checks.parameter(name, getattr(self, name), **allowed.get(name, {})) for name in FIELDS]
         # One mpmath or sympy field makes all of them so: no formula then meets a rounded float.
-        for name, value in zip(FIELDS, promoted(*self._values()), strict=True):
-            object.__setattr__(self, name, value)
+        vars(self).update(zip(FIELDS, promoted(*checked), strict=True))  # frozen for everybody else
         shapes = dict(zip(FIELDS, map(np.shape, self._values()), strict=True))
         try:
             family = self.shape
@@ -62,6 +59,10 @@ class Duffing:
 
     def __hash__(self):
         return hash(tuple(v.tobytes() if isinstance(v, np.ndarray) else v for v in self._values()))
+
+    def __setstate__(self, state):  # of a copy or a pickle: NumPy's copies of read-only arrays can be written to
+        vars(self).update(state)
+        self.__post_init__()
 
     @property
     def shape(self):
@@ -136,7 +137,8 @@ class Duffing:
         return Duffing(alpha=alpha, p=self.p, mu=mu, omega=omega)
 
     def units(self):
-        """Units (3, *family) of length, velocity and forcing for which delta = -1, gamma = 1."""
+        """Units (3, *family) of length, velocity and forcing for which delta = -1, gamma = 1; ValueError as above."""
+        checks.double_well(self)
         stiffness, cubic = (np.broadcast_to(value, self.shape) for value in (-self.delta, self.gamma))
         return np.array([np.sqrt(stiffness / cubic), stiffness / np.sqrt(cubic), stiffness**1.5 / np.sqrt(cubic)])
 

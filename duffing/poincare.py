@@ -16,18 +16,18 @@ def poincare_section(
     periods, transient : numbers of points kept and, before them, thrown away; the point of number k = 1, 2, ... of
         all of them is the state at t = (phase + 2 pi k) / omega, so that with phase = 0 it is the k-th iterate
     phase : forcing phase omega t (radian) in [0, 2 pi)
-    executor, progress, checkpoint, on_failure : as for `over_blocks`
+    executor, progress, checkpoint, on_failure : as for `duffing.blocks.over_blocks`
     options, errors : method and options as for `duffing.flow.integrate`
     """
     state = checks.state(state, checks.model(osc).shape)
     phase = checks.number("phase", phase)
     if not 0 <= phase < 2 * np.pi:
         raise ValueError(f"phase = {phase}: must be in [0, 2 pi)")
-    total = checks.count("periods", periods) + checks.count("transient", transient, least=0)
+    periods, transient = checks.count("periods", periods), checks.count("transient", transient, least=0)
     task = {"periods": periods, "transient": transient, "phase": phase, **options}
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}
     run |= {"on_failure": on_failure, "rows": (2, periods)}
-    points = over_blocks(_section, osc, state, task, block=block_for(total, **options), **run)
+    points = over_blocks(_section, osc, state, task, block=block_for(transient + periods, **options), **run)
     return points.reshape(2, periods, *osc.shape)
 
 
@@ -36,4 +36,4 @@ def _section(osc, state, periods, transient, phase, **options):
     t = stroboscopic_times(osc, periods, transient, phase)
     if np.any(t[0] > 0):  # the way from t = 0 to the first point before the section
         t = np.concatenate([np.zeros((1, t.shape[1])), t])
-    return integrate(osc, state, t, **options).states[:, -periods:]
+    return integrate(osc, state, t, 0, **options).states[:, -periods:]

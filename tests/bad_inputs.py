@@ -6,12 +6,14 @@ import numpy as np
 
 from duffing import Duffing
 
-NOTHING = [None, "a word", math.nan, 1j, {}, object(), [[1.0, 2.0], [3.0]], np.array(["a"]), [math.nan, 1.0]]
+MASKED = np.ma.array([1.0, 2.0], mask=[False, True])
+RAGGED = [[1.0, 2.0], [3.0]]
+NOTHING = [None, "a word", math.nan, 1j, {}, object(), RAGGED, np.array(["a"]), [math.nan, 1.0], MASKED]
 NUMBERS = [math.inf, -math.inf, *NOTHING]
-COUNTS = [-1, 0.5, True, 10**400, *NUMBERS]
+COUNTS = [-1, 0.5, True, 10**400, np.timedelta64(3), *NUMBERS]
 POSITIVE = [0, -1.0, [], np.array([1.0, 2.0]), *NUMBERS]
 BAD = {
-    "osc": [0.5, math.inf, [1.0], Duffing(delta=1.0).shape, *NOTHING],
+    "osc": [0.5, math.inf, [1.0], Duffing(delta=1.0).shape, Duffing, *NOTHING],
     "state": [1.0, [], (1.0, 2.0, 3.0), np.zeros((3, 2)), (math.inf, 0.0), *NOTHING],
     "t": NUMBERS,
     "on_failure": [0, "ignore", np.array(["nan", "raise"]), *NOTHING],

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from duffing import Duffing, poincare_section
+from duffing import Duffing, lyapunov_spectrum, poincare_section
 from duffing.basins.attractors import UNRESOLVED, Attractor, Cells, find_attractors, settle
 
 RK4 = {"method": "rk4", "steps_per_period": 100}
@@ -28,6 +28,18 @@ def test_without_forcing_a_start_below_the_saddle_ends_in_its_own_well():
     assert [one.name for one in attractors] == ["left well, period 1", "right well, period 1"]
     np.testing.assert_allclose([one.points[:, 0] for one in attractors], [[-1, 0], [1, 0]], atol=1e-6)
     np.testing.assert_array_equal(settle(osc, states, attractors, **RK4).labels, states[0] > 0)
+
+
+@pytest.mark.parametrize(("alpha", "x"), [(1e-4, 1.13), (1e-4, 1.35), (1e-3, 1.35)])
+def test_regular_motion_that_weak_damping_has_not_ended_is_no_chaos(alpha, x):
+    """A found failure: its tangents grow in proportion to time, here evenly enough for three standard errors."""
+    assert find_attractors(Duffing(alpha=alpha, mu=0.02), [[x], [0.1]], periods=40) == ()
+
+
+def test_without_damping_chaos_is_no_attractor():
+    osc, start = Duffing(alpha=0.0, mu=0.2), (1.2, 0.3)
+    assert lyapunov_spectrum(osc, start, k=1).exponents > 0.05
+    assert find_attractors(osc, np.reshape(start, (2, 1)), periods=40) == ()
 
 
 def test_multipliers_at_the_bottom_of_a_well_are_those_of_the_linear_equation():

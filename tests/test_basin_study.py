@@ -26,6 +26,13 @@ def test_the_manifolds_have_met_above_the_primary_tangency_and_not_well_below_it
     assert homoclinic_strips(Duffing(mu=1.001 * tangency), **RK4) > 0
 
 
+def test_strips_do_not_depend_on_the_unit_of_length():
+    """A found failure: cells of wells a hundredth as wide were hardly ever halved, and most strips not seen."""
+    ours, small = Duffing(mu=0.1), Duffing(mu=0.1 / 128, gamma=2.0**14)
+    assert small.dimensionless() == ours
+    assert homoclinic_strips(small, **RK4) == homoclinic_strips(ours, **RK4) > 100
+
+
 def test_manifolds_first_meet_at_the_primary_tangency():
     low, high = basin_study.contact(1.0)
     assert high - low == pytest.approx(3e-3 / 2**8)

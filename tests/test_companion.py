@@ -42,6 +42,12 @@ def test_invalid_input_to_two_trajectories_is_named(change, message):
         two_trajectory_growth(**({"osc": Duffing(), "state": START, "periods": 2} | change))
 
 
+def test_a_d0_that_is_lost_on_the_way_is_named():
+    """A found failure: at x = 0.01 it can be seen, at x = 1 not, and the growth was infinite."""
+    with pytest.raises(ValueError, match=r"d0 = 1e-17: .*\[0\.8"):
+        two_trajectory_growth(Duffing(mu=0.27), (0.01, 0.0), 5, d0=1e-17)
+
+
 def test_diverging_companions_are_named():
     osc = Duffing(delta=1.0, gamma=-1.0, mu=np.array([0.0, 0.01]))
     with pytest.raises(DivergedError, match="gamma = -1"):

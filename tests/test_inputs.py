@@ -81,6 +81,25 @@ def test_an_unknown_option_is_refused_with_those_that_exist(name):
         call(name, stepz=50)
 
 
+@pytest.mark.parametrize("name", ["trajectory", "poincare_section", "lyapunov_spectrum"])
+def test_tangents_are_no_option_of_what_would_not_return_them(name):
+    with pytest.raises(TypeError, match="tangents"):
+        call(name, tangents=1)
+
+
+@pytest.mark.parametrize("kind", [np.int8, np.uint8, np.uint64])
+@pytest.mark.parametrize("name", ["poincare_section", "lyapunov_spectrum", "two_trajectory_exponent"])
+def test_a_count_of_any_integer_type_is_that_number(name, kind):
+    """A found failure: 100 + 100 left the range of eight bits, and minus an unsigned number is none."""
+    results = [getattr(duffing, name)(**RUN, periods=one(100), transient=one(100)) for one in (kind, int)]
+    np.testing.assert_equal(*results)
+
+
+def test_a_tolerance_that_no_exponent_fits_is_named():
+    with pytest.raises(ValueError, match=r"rtol = 1e-17: .* 2\.2e\+01"):
+        call("lyapunov_spectrum", rtol=1e-17)
+
+
 anything = st.floats() | st.integers(-(10**40), 10**40) | st.text(max_size=3) | st.none() | st.booleans()
 
 

@@ -96,7 +96,7 @@ WITHIN = {
     "transients": "beyond both_wells distance_to_basin_boundary returns",
 }
 INCREASING = [[2.0, 1.0], [], *NOTHING]
-STATES = [1.0, [], np.zeros((3, 2)), [[np.nan], [0.0]], *NOTHING]
+STATES = [1.0, [], np.zeros((3, 2)), np.zeros((2, 0)), [[np.nan], [0.0]], *NOTHING]
 POINT = BAD["state"]
 SOME = [bad for bad in STATES if bad is not None]  # None: a grid of them
 WRONG = BAD | {
@@ -129,6 +129,7 @@ WRONG = BAD | {
     "attractors": [3, "a word", (1,), {}, object()],  # None: they are looked for
     "tangents": [2, -1, *NOTHING],
     **{key: [1, None, "a word"] for key in ("label", "follow")},
+    "phase": [[0.0, 1.0], [], *BAD["phase"]],
     "box": [1.0, (1, 2), ((1, -1), (-1, 1)), ((np.nan, 1), (0, 1)), *NOTHING],
     "eps": [0.0, -1.0, *NOTHING],
     "uncertain": [1, [1, 2], [-1, 2, 3], [1000, 10, 3], *NOTHING],
@@ -226,6 +227,20 @@ def test_any_oscillator_is_answered_with_finite_numbers_or_refused(name, **param
         assert any(f"{parameter} = " in str(error) for parameter in parameters)
     else:
         assert all(np.all(np.isfinite(number)) for number in numbers_of(result))
+
+
+def test_counts_of_any_integer_type_are_those_numbers():
+    small = np.uint8
+    fates, ours = (basins.fates.classify(OSC, START, periods=kind(40), last=kind(4)) for kind in (small, int))
+    np.testing.assert_array_equal(fates, ours)
+    counts = {"periods": 250, "settling": 100, "block": 40}
+    lived = transients.lifetimes.lifetimes(OSC, (0.9, 0.0), **{name: small(n) for name, n in counts.items()})
+    np.testing.assert_equal(lived, transients.lifetimes.lifetimes(OSC, (0.9, 0.0), **counts))
+
+
+def test_lengths_of_any_number_type_are_those_numbers():
+    curves = [call("manifolds.curves.unstable_manifold", spacing=kind(0.5)) for kind in (np.float16, float)]
+    np.testing.assert_array_equal(*curves)
 
 
 def test_steps_that_are_too_long_to_be_squared_are_not_taken():

@@ -21,7 +21,7 @@ from functools import partial
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 import numpy as np
-from duffing import Duffing, lyapunov_spectrum
+from duffing import Duffing, lyapunov_spectrum, two_trajectory_exponent
 
 def started(done, total):
     print("started", flush=True)
@@ -39,6 +39,10 @@ if __name__ == "__main__":
         lyapunov_spectrum(Duffing(p=0.1, mu=0.2), periods=1, method="rk4")
         threading.Timer(1.0, started, (0, 0)).start()  # in the midst of it
         run(None, progress=None)
+    elif kind == "companion":
+        two_trajectory_exponent(Duffing(), periods=1)
+        threading.Timer(1.0, started, (0, 0)).start()  # in the midst of it
+        two_trajectory_exponent(Duffing(p=0.1, mu=0.2), periods=10**6)
     elif kind == "whole":
         from duffing.basins.attractors import settle
         osc, states = Duffing(p=0.1, mu=0.27), np.random.default_rng(0).uniform(-1, 1, (2, 100_000))
@@ -73,6 +77,7 @@ def alive(group):
         ("threads", "kill"),
         ("pieces", "kill"),
         ("pieces", "terminal"),
+        ("companion", "kill"),
         ("whole", "kill"),
         ("processes", "terminal"),
         ("function", "kill"),

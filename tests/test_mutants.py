@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-MUTANTS = runpy.run_path(ROOT / "tools" / "mutants.py")["MUTANTS"]
+TOOL = runpy.run_path(ROOT / "tools" / "mutants.py")
+MUTANTS = TOOL["MUTANTS"]
 
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: f"{mutant.module}: {mutant.what}")
@@ -18,3 +19,8 @@ def test_the_error_can_be_put_into_the_code_at_one_place(mutant):
 
 def test_there_are_at_least_thirty_and_none_twice():
     assert len({(mutant.module, mutant.good, mutant.bad) for mutant in MUTANTS}) == len(MUTANTS) >= 30
+
+
+def test_a_module_without_errors_is_no_success():
+    with pytest.raises(SystemExit, match=r"duffing\.flw: no deliberate error"):
+        TOOL["main"](["duffing.oscillator", "duffing.flw"])

@@ -1,5 +1,7 @@
 """The model: Eq. 1 to 4, scaling, families and the checks of its parameters."""
 
+import copy
+import pickle
 from dataclasses import FrozenInstanceError, replace
 
 import mpmath
@@ -85,6 +87,20 @@ def test_an_oscillator_cannot_be_changed_in_place():
         osc.mu[0] = 1.0
 
 
+def through_pickle(osc):
+    return pickle.loads(pickle.dumps(osc))
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, through_pickle])
+def test_a_copy_is_equal_and_cannot_be_changed_in_place_either(copied):
+    """A found failure: NumPy's own copy of a read-only array can be written to, and so nothing checked the number."""
+    osc = Duffing(p=[0.5, 1.0], mu=0.3)
+    again = copied(osc)
+    assert again == osc and hash(again) == hash(osc)
+    with pytest.raises(ValueError, match="read-only"):
+        again.p[0] = -1.0
+
+
 def test_equal_oscillators_are_equal_and_hash_alike():
     assert Duffing(mu=[0.1, 0.2]) == Duffing(mu=np.array([0.1, 0.2]))
     assert hash(Duffing(mu=[0.1, 0.2])) == hash(Duffing(mu=np.array([0.1, 0.2])))
@@ -131,9 +147,11 @@ def test_fields_that_do_not_broadcast_are_refused_with_their_shapes():
 
 
 @pytest.mark.parametrize(("delta", "gamma", "name"), [(1.0, 1.0, "delta"), (0.0, 1.0, "delta"), (-1.0, 0.0, "gamma")])
-def test_the_dimensionless_form_needs_a_double_well(delta, gamma, name):
-    with pytest.raises(ValueError, match=f"^{name} = .*double well"):
-        Duffing(delta=delta, gamma=gamma).dimensionless()
+def test_the_dimensionless_form_and_its_units_need_a_double_well(delta, gamma, name):
+    osc = Duffing(delta=delta, gamma=gamma)
+    for ask in (osc.dimensionless, osc.units):
+        with pytest.raises(ValueError, match=f"^{name} = .*double well"):
+            ask()
 
 
 def test_an_empty_family_and_a_ragged_field_are_refused():

@@ -29,6 +29,14 @@ def test_linear_oscillator_has_its_response_and_its_exponents_in_closed_form(hal
     np.testing.assert_allclose(orbit.multipliers.real, exact.real, atol=1e-9)
 
 
+def test_an_orbit_far_from_the_origin_is_found_from_a_guess_near_it():
+    """A found failure: beyond 5 none was looked for, whatever the guess."""
+    resonant = replace(LINEAR, mu=30.0, omega=1.4)
+    exact = linear_response(resonant)
+    assert np.abs(exact).max() > 50
+    np.testing.assert_allclose(periodic_orbit(resonant, exact + 0.1).state, exact, rtol=1e-9)
+
+
 @pytest.mark.parametrize(("halves", "guess"), [(2, (1.2, 0.0)), (1, (-0.1, 0.0)), (4, (-0.15, -0.15))])
 def test_linear_damping_makes_the_product_of_multipliers_exp_minus_alpha_n_T(halves, guess):
     """Also where the determinant of the tangent map itself has lost its digits."""

@@ -161,6 +161,14 @@ def test_growth_over_one_long_interval_is_the_sum_over_short_ones_and_does_not_o
     assert abs(growth - (rate * 1300.0 + transient)) < 1e-5
 
 
+@pytest.mark.parametrize("omega", [1e-8, 1e-12, 1e-300])
+def test_a_forcing_that_hardly_changes_is_a_constant_force(omega):
+    """A found failure: where a phase moved by less than its rounding, time stood still."""
+    t = np.linspace(0.0, 0.1, 11)
+    constant = friction.integrate(Duffing(mu=0.3, omega=omega), START, t).states
+    np.testing.assert_allclose(rk4.integrate(Duffing(mu=0.3, omega=omega), START, t).states, constant, atol=1e-10)
+
+
 def test_rest_under_power_law_damping_stays_at_rest_exactly():
     osc = Duffing(p=np.array([0.1, 0.5, 1.5]), mu=0.0)
     assert np.array_equal(rk4.integrate(osc, (1.0, 0.0), [0.0, 7.0]).states[:, 1], [[1.0] * 3, [0.0] * 3])

@@ -52,6 +52,7 @@ MUTANTS = (
     Mutant("duffing.oscillator", "lost |v| in the damping", "sign(v) * abs(v) ** self.p", "sign(v) * v ** self.p"),
     Mutant("duffing.oscillator", "factor of the quartic potential", "self.gamma * x**4 / 4", "self.gamma * x**4 / 2"),
     Mutant("duffing.oscillator", "power of alpha's unit", "(osc.p - 1.5)", "(osc.p - 0.5)"),
+    Mutant("duffing.oscillator", "a copy can be written to", "self.__post_init__()", "pass"),
     Mutant("duffing.melnikov", "sign of the homoclinic velocity", "* osc.delta * lib.tanh(u)", "* -osc.delta * lib.tanh(u)"),
     Mutant("duffing.melnikov", "argument of the Beta function", "(osc.p + 2) / 2, (osc", "(osc.p + 1) / 2, (osc"),
     Mutant("duffing.melnikov", "factor of the forcing integral", "lib.pi * osc.omega / 2 /", "lib.pi * osc.omega /"),
@@ -67,6 +68,8 @@ MUTANTS = (
     Mutant("duffing.integrators.powers", "lost absolute value", "max(abs(v), q.least)\n    cell", "max(v, q.least)\n    cell"),
     Mutant("duffing.integrators.forcing", "phase of the steps' middles", "np.arange(2 * count + 1) / (2 * count)", "np.arange(2 * count + 1) / (2 * count + 1)"),
     Mutant("duffing.integrators.forcing", "cosine beyond the quarter turn", "part > 0.25, -total", "part > 0.25, total"),
+    Mutant("duffing.integrators.forcing", "no time under a slow forcing", "(spans > 0) & (spans % GRID == 0)", "spans % GRID == 0", ("tests/test_rk4.py",)),
+    Mutant("duffing.integrators.companion", "d0 lost on the way", "if not before.all():", "if i == 0 and not before.all():"),
     Mutant("duffing.integrators.companion", "distance not reset", "apart * (d0 / distance)", "apart"),
     Mutant("duffing.integrators.friction_time.adaptive", "rotation of the second frame", "-np.sin(a)], [np.sin(a)", "np.sin(a)], [-np.sin(a)"),
     Mutant("duffing.integrators.friction_time.adaptive", "shear forgotten in the propagator", "r11 * results[R12]", "0 * results[R12]"),
@@ -85,6 +88,8 @@ MUTANTS = (
     Mutant("duffing.integrators.friction_time.scheduler", "a lane that moves leaves its parameters behind", "range(0, BLOCK, WIDTH)", "range(0, 8 * WIDTH, WIDTH)", ("tests/test_lanes.py",)),
     Mutant("duffing.integrators.friction_time.event_location", "the last shift the wrong way", "shift * rate[row, l]", "-shift * rate[row, l]", ("tests/test_friction.py", "tests/test_lanes.py")),
     Mutant("duffing.orbits.periodic", "the half map's change of sign", "sign = (-1) ** halves", "sign = 1 ** halves"),
+    Mutant("duffing.basins.attractors", "regular motion is chaotic", "np.maximum(3 * spectrum.error, least)", "3 * spectrum.error"),
+    Mutant("duffing.basins.attractors", "chaotic attractors without damping", "osc.alpha == 0 or caught", "caught"),
     Mutant("duffing.basins.capture", "a capture one period too early", "done - points.shape[1] + 1 + when", "done - points.shape[1] + when", ("tests/test_attractors.py",)),
     Mutant("duffing.sweep.families", "members come back to other places", "self.result[..., self.members(start)] = array", "self.result[..., start : start + array.shape[-1]] = array"),
     Mutant("duffing.sweep.checkpoint", "a damaged file is trusted", "if seal != _seal(key, content):", "if not seal:"),
@@ -170,6 +175,8 @@ def first_failure(root, files):
 
 
 def main(modules):
+    if unknown := set(modules) - {mutant.module for mutant in MUTANTS}:
+        sys.exit(f"{', '.join(sorted(unknown))}: no deliberate error is listed for it")
     chosen = [mutant for mutant in MUTANTS if not modules or mutant.module in modules]
     survivors, sound = 0, set()
     with tempfile.TemporaryDirectory() as folder:

@@ -2,7 +2,8 @@
 
 A periodic attractor has caught a state when the state lies in its trapping disk (`trapping`), which the flow carries
 into itself. A chaotic one, when the state has stayed in the cells that the attractor visits for STREAK periods on end.
-What is not caught is not given away: it is searched for orbits not yet known, and what is left is UNRESOLVED.
+What is not caught is not given away: it is searched for orbits not yet known, and what is left is UNRESOLVED. Lengths
+in (x, v) are for wells about as large as those of delta = -1, gamma = 1; for others see `Duffing.dimensionless`.
 """
 
 from typing import NamedTuple
@@ -20,7 +21,8 @@ from .trapping import Trap, trap
 CELL = 0.02  # width of a chaotic attractor's cells in x and v
 LONGEST, NEAR = 16, 1e-2  # longest period looked for, and how nearly a state must return for Newton's method to try
 _SAMPLE = 24  # states not yet caught that a search takes
-_WITNESSES, _PROOF = 32, 500  # chaotic orbits followed, and the periods for which none of them may be caught
+# Chaotic orbits followed, the periods for which none of them may be caught, and those over which they are stretched.
+_WITNESSES, _PROOF, _STRETCH = 32, 500, 200
 
 
 class Cells(NamedTuple):
@@ -76,8 +78,9 @@ def find_attractors(osc, starts=None, periods=400, **options):
 
     osc : a single oscillator; starts : (2, M) at phase 0, by default a grid of 16 x 12 over |x| <= 1.6, |v| <= 1.2
     periods : that a start is followed. What is left then, at most 32 states, is followed for 500 more; when none of
-        them is caught in that time and their largest exponents are positive by three standard errors, they are on a
-        chaotic attractor (a transient would have to last some thousand periods on average); otherwise on none.
+        them is caught in that time and their largest exponents are positive, by three standard errors and by more than
+        regular motion has in so short a time, they are on a chaotic attractor (a transient would have to last some
+        thousand periods on average); otherwise, or without damping, on none.
     options : method and options as for `duffing.flow.integrate`
 
     No search from finitely many starts can promise to be complete: `settle` goes on looking. Chaotic attractors in the
@@ -97,7 +100,7 @@ def settle(
     osc : a single oscillator; states : (2, N) at the forcing phase `phase` (radian)
     attractors : known ones, as from `find_attractors`; periodic ones that are not among them are found on the way and
         come after them; periods : the most that a state is followed
-    executor, progress, checkpoint : as for `over_blocks`, which is called once between two searches for
+    executor, progress, checkpoint : as for `duffing.blocks.over_blocks`, which is called once between two searches for
         attractors not yet known (after 32, 64, 128 ... periods), with the states that nothing has caught
     options, errors : method and options as for `duffing.flow.integrate`
     """
@@ -122,11 +125,11 @@ def _settle(osc, now, attractors, periods, phase, run, options):
     run : how, for `over_blocks`
     """
     checks.single(osc)
-    checks.count("periods", periods)
+    periods = checks.count("periods", periods)
     labels, caught = np.full(now.shape[1], UNRESOLVED), np.full(now.shape[1], np.inf)
     live, streaks = np.arange(now.shape[1]), np.zeros((len(attractors), now.shape[1]))
     first, search = 0, 2 * LONGEST
-    start = checks.parameter("phase", phase) % (2 * np.pi) / osc.omega
+    start = checks.number("phase", phase) % (2 * np.pi) / osc.omega
     while True:
         last = min(search, periods)
         regions = tuple((one.period, one.region) for one in attractors)
@@ -187,10 +190,13 @@ def _chaotic(osc, states, known, options):
     sample = states[:, :: -(-states.shape[1] // _WITNESSES)]
     points = points_of(osc, sample, _PROOF, options)
     regions = [(one.period, one.region) for one in known]
-    if np.any(first_capture(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED):
+    caught = first_capture(regions, points, np.zeros((len(known), sample.shape[1])))[0] != UNRESOLVED
+    if osc.alpha == 0 or caught.any():
         return ()
-    spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=200, transient=0, k=1, **options)
-    if np.any(spectrum.exponents <= 3 * spectrum.error):
+    spectrum = lyapunov_spectrum(osc.repeated(sample.shape[1]), sample, periods=_STRETCH, transient=0, k=1, **options)
+    # The tangents of regular motion grow as well, in proportion to time: chaos stretches them by more than its square.
+    least = 2 * np.log(_STRETCH) / (_STRETCH * osc.period)
+    if np.any(spectrum.exponents <= np.maximum(3 * spectrum.error, least)):
         return ()
     half = integrate(osc.repeated(sample.shape[1]), sample, np.linspace(0, 10, 161) * osc.period, **options).states
     mirror = -integrate(osc.repeated(sample.shape[1]), sample, np.array([0.0, osc.period / 2]), **options).states[:, 1]

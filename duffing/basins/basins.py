@@ -27,7 +27,7 @@ class Basins(NamedTuple):
     x (nx,), v (nv,) : the grid; phase : of the forcing at the start (radian)
     labels (nv, nx) : index into attractors, or UNRESOLVED (-1)
     periods (nv, nx) : forcing periods until the start was caught, infinite where it was not
-    attractors : tuple of `duffing.attractors.Attractor`, their points at phase 0
+    attractors : tuple of `duffing.basins.attractors.Attractor`, their points at phase 0
     """
 
     x: np.ndarray

@@ -42,8 +42,7 @@ def crossings(follow, reach=0.2, least=1e-13, most=100_000):
     Raises ValueError for invalid input.
     """
     checks.function("follow", follow)
-    for name, value in (("reach", reach), ("least", least)):
-        checks.positive(name, value)
+    reach, least = checks.positive("reach", reach), checks.positive("least", least)
     checks.count("most", most, least=_CELLS + 1)
     ends = np.linspace(0.0, 1.0, _CELLS + 1)
     images, labels = follow(ends)

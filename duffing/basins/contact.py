@@ -26,19 +26,20 @@ def homoclinic_strips(osc, periods=14, most=30_000, **options):
     """How many ends the strips have that go over, on a fundamental domain of the right branch of W^U: 0 before it has
     met W^S.
 
-    An orbit has gone over once it has been left of the left well's middle, x < -sqrt(-delta/gamma).
+    An orbit has gone over once it has been left of the left well's middle, x = -sqrt(-delta/gamma).
 
     osc : a single oscillator, delta < 0 < gamma; periods : within which orbits may go over, two of them on the way out
     most : as for `crossings`; strips thinner than 1e-9 of the domain are not seen
     options : method and options as for `duffing.flow.integrate`; errors as for `saddle_orbit`
     """
-    saddle = saddle_orbit(checks.single(osc))
+    unit = checks.single(osc).dimensionless()  # the lengths of `crossings` are its own
+    saddle = saddle_orbit(unit)
     ends = (saddle.state + _LAUNCH * stretch * saddle.unstable for stretch in (1.0, saddle.multipliers[0]))
-    line, middle = line_of_starts(osc, *ends, periods, **options), -np.sqrt(-osc.delta / osc.gamma)
+    line = line_of_starts(unit, *ends, periods, **options)
 
     def follow(s):
         images, _ = line(s)
-        return images, images[0].min(axis=0) < middle
+        return images, images[0].min(axis=0) < -1
 
     return crossings(follow, least=_LEAST, most=most).left.size
 

@@ -1,8 +1,8 @@
 """What has become of starts after a number of periods, read off the last of them: no attractor need be known.
 
-LEFT, RIGHT : x has kept its sign, the motion is in one well. LARGE : it crosses x = 0 and repeats itself each period.
-IRREGULAR : it crosses x = 0 and does not: chaos, or a motion on its way. Unlike a label of `attractors` a fate is no
-proof of where the start ends; it is what an experiment of that length would report.
+LEFT, RIGHT : x has kept its sign, the motion is in one well. LARGE : it crosses x = 0 and repeats itself each period,
+to 0.05 in (x, v). IRREGULAR : it crosses x = 0 and does not: chaos, or a motion on its way. Unlike a label of
+`attractors` a fate is no proof of where the start ends; it is what an experiment of that length would report.
 """
 
 from dataclasses import replace
@@ -25,12 +25,13 @@ def classify(osc, states, periods=60, last=LAST, executor=None, progress=None, c
 
     osc : a family, or a single oscillator with states (2, *shape)
     last : periods at the end that are read. Chaos may stay in one well for a few: where it is likely, read more.
-    executor, progress, checkpoint : as for `over_blocks`
+    executor, progress, checkpoint : as for `duffing.blocks.over_blocks`
     options, errors : method and options as for `duffing.flow.integrate`
     """
-    checks.count("periods", periods, least=checks.count("last", last) + 1)
+    last = checks.count("last", last)
+    periods = checks.count("periods", periods, least=last + 1)
     states = checks.floats("states", states, "two finite numbers (x, v) each")
-    if not checks.model(osc).shape and states.ndim > 1:
+    if not checks.model(osc).shape and states.ndim > 1 and states.size:
         osc = replace(osc, mu=np.full(states.shape[1:], osc.mu))
     state, task = checks.state(states, osc.shape, "states"), {"periods": periods, "last": last, **options}
     run = {"executor": executor, "progress": progress, "checkpoint": checkpoint}

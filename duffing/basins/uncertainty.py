@@ -48,7 +48,7 @@ def dimension(eps, uncertain, starts):
     Raises ConvergenceError where fewer than three distances have uncertain starts.
     """
     eps = np.atleast_1d(checks.parameter("eps", eps, "positive distances", lower=0.0, strict=True))
-    checks.count("starts", starts)
+    starts = checks.count("starts", starts)
     uncertain = checks.floats("uncertain", uncertain, "counts of starts")
     if uncertain.shape != eps.shape or not np.all((uncertain >= 0) & (uncertain <= starts)):
         raise ValueError(f"uncertain = {uncertain}: must be counts from 0 to starts = {starts}, one for each eps")

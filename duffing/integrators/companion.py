@@ -21,13 +21,11 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
     |x|, |v|, so that the growth recorded is an upper bound, and the companion starts anew at (x + d0, v).
 
     osc, state, steps_per_period, threads as in `rk4.integrate`; raises ValueError for invalid input, also for a d0
-    that x + d0 cannot show, and DivergedError when a solution is not finite.
+    that (x, v) cannot show at some period, and DivergedError when a solution is not finite.
     """
     periods, d0 = checks.count("periods", periods), checks.positive("d0", d0)
     period = np.array([[0.0], [1.0]]) * np.ravel(np.broadcast_to(osc.period, osc.shape))
     columns, state, t, steps_per_period, threads = checked(osc, state, period, steps_per_period, threads)
-    if np.any(state[0] + d0 == state[0]):
-        raise ValueError(f"d0 = {d0}: must be large enough to change x = {state[0]} in double precision")
     growth = np.empty((periods, columns.shape[1]))
 
     def run(members, padded, h, law, forcing):
@@ -38,6 +36,8 @@ def two_trajectory_growth(osc, state, periods, d0=1e-8, steps_per_period=500, th
         for i in range(periods):
             pair[1] = pair[0] + start
             before = np.hypot(*(pair[1] - pair[0]))
+            if not before.all():
+                raise ValueError(f"d0 = {d0}: must be large enough to change {pair[0, :, before.argmin()]} as doubles")
             for each in range(2):
                 advance(parameters, pair[each], h, *forcing, law, 0, lanes, ends[each], *nothing)
             check_finite(parameters, *ends)

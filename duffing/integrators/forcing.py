@@ -49,6 +49,8 @@ def map_chunks(run, columns, t, steps_per_period, threads, lanes, width):
         run(members, padded, np.ascontiguousarray(h[:, clock[padded]]), _damping_law(p), forcings[kind])
 
     blocks = [(*key, np.array(m[i : i + lanes])) for key, m in groups.items() for i in range(0, len(m), lanes)]
+    if len(blocks) == 1:  # in the caller's thread, where Ctrl-C reaches it
+        return run_block(*blocks[0])
     with ThreadPoolExecutor(threads) as pool:
         list(pool.map(run_block, *zip(*blocks, strict=True)))
 
@@ -68,7 +70,7 @@ def _steps(omega, t, steps_per_period):
     phases = np.rint(turns * GRID)
     spans = np.diff(phases, axis=0)
     # Whole periods are whole whatever the round-off in t: their step is the same at any time.
-    lengths = np.where(spans % GRID == 0, spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
+    lengths = np.where((spans > 0) & (spans % GRID == 0), spans / GRID * (2 * np.pi / omega), np.diff(t, axis=0))
     known, kinds, forcings = {}, [], []
     for c in range(len(omega)):
         key = (phases[:-1, c] % GRID).tobytes() + spans[:, c].tobytes() + counts[:, c].tobytes()

@@ -18,6 +18,7 @@ from vectorized.vectors import EIGHT, fma, root, where
 
 from .. import checks
 from ..errors import DivergedError
+from ..oscillator import Duffing
 from .forcing import map_chunks
 from .powers import evaluate
 from .solution import Solution
@@ -98,8 +99,7 @@ def check_finite(columns, *results):
     """Raise DivergedError, with the parameters of the first such member, unless all results (..., N) are finite."""
     bad = ~np.all([np.isfinite(r).all(axis=tuple(range(r.ndim - 1))) for r in results if r.size], axis=0)
     if np.any(bad):
-        names = ("alpha", "p", "mu", "omega", "delta", "gamma")
-        first = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, bad.argmax()], strict=True))
+        first = Duffing(*columns[:, bad.argmax()]).named()
         raise DivergedError(f"{bad.sum()} of {bad.size} solutions or tangents are not finite; the first has {first}")
 
 

@@ -65,12 +65,12 @@ def launch(frame, kind, t, member=0, side=1):
 def _curve(osc, kind, side, length, phase, spacing, turn):
     checks.single(osc)
     checks.choice("side", side, (1, -1))
-    for name, value in (("length", length), ("spacing", spacing), ("turn", turn)):
-        checks.positive(name, value)
+    named = ("length", length), ("spacing", spacing), ("turn", turn)
+    length, spacing, turn = (checks.positive(*pair) for pair in named)
     if length > _MOST * spacing:
         raise ValueError(f"length = {length}, spacing = {spacing}: must not ask for more than {_MOST} points")
     frame = saddle_frame(osc)
-    section = checks.parameter("phase", phase) / frame.osc.omega[0]
+    section = checks.number("phase", phase) % (2 * np.pi) / frame.osc.omega[0]
     points_at = partial(_points, frame, kind, side, section)
     piece, total = frame.osc.period[0] / 32 * np.linspace(0, 1, 5), 0.0
     flight, curve = np.zeros(1), points_at(np.zeros(1))

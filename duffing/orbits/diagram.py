@@ -38,14 +38,12 @@ def bifurcation_diagram(
     mu : (n,) increasing
     starts : (2, m) x and v; the first of them also begins both sweeps
     transient, kept : forcing periods thrown away and, after them, kept, at every mu
-    executor, progress, checkpoint : as for `over_blocks`, which carries the fresh starts; the sweeps in
+    executor, progress, checkpoint : as for `duffing.blocks.over_blocks`, which carries the fresh starts; the sweeps in
         mu go on from one forcing to the next and cannot be cut
     options, errors : method and options as for `duffing.flow.integrate`
     """
     mu = checks.times(mu, "mu")
     starts, family = checks.starts(starts), checks.model(osc).shape
-    if starts.shape[1] == 0:
-        raise ValueError(f"starts has shape {starts.shape}: must be (2, m), m >= 1")
     run = {"periods": checks.count("kept", kept), "transient": transient, **options}
     forward, backward = _sweeps(osc, mu, starts[:, 0], run)
     grid = _expanded(osc, 2, mu=np.broadcast_to(mu[:, None], (*family, mu.size, starts.shape[1])))

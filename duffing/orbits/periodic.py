@@ -21,7 +21,7 @@ from ..flow import integrate
 
 _STEPS = 25
 _LONGEST = 0.3  # a Newton step is cut to this length
-_FAR = 5.0  # no orbit is looked for beyond
+_FAR = 5.0  # no orbit is looked for beyond, nor beyond twice the guess where that is farther
 
 
 class Return(NamedTuple):
@@ -138,13 +138,14 @@ def path(osc, state, halves=2, samples=200, **options):
 def _newton(osc, guess, halves, options):
     """Refined states (2, N) and whether each member converged; steps are cut to a length."""
     state, found, live = guess.copy(), np.zeros(guess.shape[1], dtype=bool), np.arange(guess.shape[1])
+    far = np.maximum(_FAR, 2 * np.max(np.abs(guess), axis=0))
     for _ in range(_STEPS):
         image, derivative, _ = half_period_map(osc.members(live), state[:, live], halves, **options)
         step = _solve(derivative - np.eye(2)[:, :, None], state[:, live] - image)
         length = np.hypot(*step)
         state[:, live] += step * np.minimum(1, _LONGEST / np.maximum(length, _LONGEST))
         found[live[length < 1e-9]] = True
-        live = live[(length >= 1e-9) & (np.max(np.abs(state[:, live]), axis=0) < _FAR)]
+        live = live[(length >= 1e-9) & (np.max(np.abs(state[:, live]), axis=0) < far[live])]
         if live.size == 0:
             break
     return state, found

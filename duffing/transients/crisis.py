@@ -5,6 +5,7 @@ large orbit round both wells lies the large saddle orbit, whose stable manifold 
 fundamental domain of it, and its distance from the border is read where an orbit comes nearest to the large saddle
 orbit: the unstable coordinate there, in which the border is the line 0. It is positive as long as chaos keeps to its
 side; at zero the two manifolds touch, a heteroclinic tangency, and beyond it orbits leak out. (Grebogi, Ott and Yorke.)
+Lengths in (x, v) are for wells about as large as with delta = -1, gamma = 1; for others see `Duffing.dimensionless`.
 """
 
 from typing import NamedTuple

@@ -38,19 +38,9 @@ class Lifetimes(NamedTuple):
 
 
 def lifetimes(
-    osc,
-    state,
-    periods=1000,
-    settling=150,
-    radius=0.1,
-    tolerance=1e-4,
-    block=40,
-    tangents=0,
-    executor=None,
-    progress=None,
-    checkpoint=None,
-    **options,
-):
+    osc, state, periods=1000, settling=150, radius=0.1, tolerance=1e-4, block=40, tangents=0,
+    executor=None, progress=None, checkpoint=None, **options,
+):  # the problem, then how it is run  # fmt: skip
     """Lifetimes up to `periods` of the family's orbits from `state` at t = 0.
 
     state : (2,) for all members or (2, *family)
@@ -61,15 +51,15 @@ def lifetimes(
     block : periods between two looks, more than LONGEST + REPEATS; the lifetime of an orbit that settles in time
         depends on it only through the point from which it is read backwards
     tangents : 1 for the growth of a tangent vector, 0 for none
-    executor, progress, checkpoint : as for `over_blocks`
+    executor, progress, checkpoint : as for `duffing.blocks.over_blocks`
     options, errors : method and options as for `duffing.flow.integrate`
     """
     watched = checks.count("periods", periods) + checks.count("settling", settling, least=0)
     radius, tolerance = checks.positive("radius", radius), checks.positive("tolerance", tolerance)
     if tolerance >= radius:
         raise ValueError(f"tolerance = {tolerance}: must be less than the radius, {radius}")
-    checks.choice("tangents", tangents, (0, 1))
-    if checks.count("block", block) <= LONGEST + REPEATS:
+    tangents, block = int(checks.choice("tangents", tangents, (0, 1))), checks.count("block", block)
+    if block <= LONGEST + REPEATS:
         raise ValueError(f"block = {block}: must be more than {LONGEST + REPEATS}, the periods that a look takes")
     state = checks.state(state, checks.model(osc).shape)
     task = {"watched": watched, "radius": radius, "tolerance": tolerance, "look": block, "tangents": tangents}

@@ -7,6 +7,7 @@ import numpy as np
 
 from ... import checks
 from ...errors import ConvergenceError, DivergedError
+from ...oscillator import Duffing
 from vectorized import processors
 from .block import WIDTH
 from .equations import parameters
@@ -76,7 +77,7 @@ def integrate_members(columns, states, times, max_steps, event, beyond, tangents
     allowed = (alpha == 0) | ((p >= least) & (p <= _MOST_P))
     if not np.all(allowed):
         bad = p[allowed.argmin()]
-        raise ValueError(f"p = {bad}: must be from {least:.1e} (for rtol = {control[0]}) to {_MOST_P:g}")
+        raise ValueError(f"p = {bad}, rtol = {control[0]}: p must be from 2.2e-16 / rtol = {least:.1e} to {_MOST_P:g}")
     threads = processors.available() if threads is None else checks.count("threads", threads)
     size, intervals = times.shape[0], times.shape[1] - 1
     # One layout in memory, for which the kernel is compiled once.
@@ -115,6 +116,5 @@ def _raise_failures(status, columns, times, max_steps, results, control):
                 f"max_steps = {max_steps}{default} is too few steps from t = {times[first, k]:g} to "
                 f"t = {times[first, k + 1]:g}: give a larger max_steps, or a larger rtol (it is {control[0]:g})"
             )
-        names = ("alpha", "p", "mu", "omega", "delta", "gamma")
-        member = ", ".join(f"{n} = {v:g}" for n, v in zip(names, columns[:, first], strict=True))
+        member = Duffing(*columns[:, first]).named()
         raise kind(f"{failed.size} of {status.size} members fail; the first, {member}: {reason}")
