@@ -25,7 +25,7 @@ def load(name):
     return json.loads((CERTIFICATES / f"{name}.json").read_text(encoding="utf-8"))
 
 
-def check(certificate, sample=20, seed=0):
+def check(certificate, sample=10, seed=0):
     """Assert the theorems of a certificate; raises NotProved. sample : how many pieces are flown anew, None all.
 
     Returns (mu_low, mu_high, least gap) as Fractions.

@@ -57,7 +57,7 @@ def pieces(setting, text):
     return [part for ends in first_pieces(read(factor(setting)).high, WIDTH) for part in parts(ends)]
 
 
-def check_first(certificate, records, sample=20, seed=0):
+def check_first(certificate, records, sample=10, seed=0):
     """Assert that the intervals join from 0 to mu_low and, in one of them, that pieces cover and a sample is apart.
 
     sample : pieces of each manifold that are flown; None: all of them, in all intervals, which is the whole proof.

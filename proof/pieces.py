@@ -55,7 +55,7 @@ class Piece:
     rate: Interval
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=16)
 def curve(setting):
     """The local curve of a setting: about the exact middle of the ball of mu, what is left of mu in `rest`."""
     with ctx.workprec(BITS):

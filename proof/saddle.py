@@ -13,7 +13,7 @@ from .lohner import solution_set
 from .oscillator import NotProved, around
 
 ORDERS = (20, 16)
-WIDE = 1e-4  # half an interval of forcing amplitudes that is divided
+WIDE = 2e-4  # half an interval of forcing amplitudes that is divided
 RADIUS = 1e-4  # of the box that is proved to hold one fixed point
 ZERO = arb_mat(3, 3)
 NOTHING = arb(0)
@@ -54,16 +54,16 @@ def saddle(osc, mu, spread=NOTHING):
     z, inverse, drift = _newton(osc, mu)
     held = _fixed(osc, z, mu, arb(0), drift, inverse)
     frame = _eigenframe(half_map(osc, z, mu, (0, 0, 0), drift)[1].mid())
-    return Saddle(mu, spread, z + held, _slope(osc, mu, spread), frame)
+    return Saddle(mu, spread, z + held, _slope(osc, mu, spread, (z, inverse, drift)), frame)
 
 
-def _slope(osc, mu, spread):
-    """dz/dmu for each forcing amplitude of mu + spread; where that is wide, of its parts by themselves: sharper."""
-    if spread.rad() > WIDE:
+def _slope(osc, mu, spread, start=None):
+    """dz/dmu for each forcing amplitude of mu + spread; for p = 2, where it varies more, part by part."""
+    if osc.p == 2 and spread.rad() > WIDE:
         quarter = (spread.rad() / 2).upper()
         first, last = (_slope(osc, (mu + sign * quarter).mid(), around(1.01 * quarter)) for sign in (-1, 1))
         return arb_mat([[first[i, 0].union(last[i, 0])] for i in (0, 1)])
-    z, inverse, drift = _newton(osc, mu)
+    z, inverse, drift = start or _newton(osc, mu)
     near = _fixed(osc, z, mu, spread, drift, inverse)
     _, slope, by_mu = half_map(osc, z, mu, (near[0, 0], near[1, 0], spread), drift)
     return drift + (ONE - slope).inv() * (by_mu - drift)
@@ -75,7 +75,10 @@ def _newton(osc, mu):
     for _ in range(8):
         image, slope, by_mu = half_map(osc, z, mu, (0, 0, 0), nothing)
         inverse = (ONE - slope).inv().mid()
-        z = (z - inverse * (z - image)).mid()
+        change = inverse * (z - image)
+        z = (z - change).mid()
+        if abs(change[0, 0]) < 1e-24 and abs(change[1, 0]) < 1e-24:
+            break
     return z, inverse, (inverse * by_mu).mid()
 
 

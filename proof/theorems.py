@@ -9,7 +9,7 @@ from .pieces import UNIT, Setting, curve, difference, factor, flown, inner, piec
 from .rational import period, point, read, written
 from .saddle import RADIUS
 
-FINE = {"depth": 17, "orders": (24, 12)}
+FINE = {"depth": 19, "orders": (24, 12)}
 NEAR = 2e-7  # half the time that a piece about the transverse intersection takes to cross
 
 
@@ -44,10 +44,13 @@ def below(setting, each=map, tick=lambda: None):
 
 def above(setting, time):
     """A transverse primary intersection near a time of crossing: a thin piece of each manifold about it."""
-    records = thin(setting, time), thin(setting.reversed(), -time)
-    u, s = map(piece, records)
-    turns = round((u.t.middle + s.t.middle) / period(setting.osc.omega).middle)
-    inside = inner(setting, u), period(setting.osc.omega) * point(turns) - inner(setting, s)
+    for _ in range(3):
+        records = thin(setting, time), thin(setting.reversed(), -time)
+        u, s = map(piece, records)
+        turns = round((u.t.middle + s.t.middle) / period(setting.osc.omega).middle)
+        turn = period(setting.osc.omega) * point(turns)
+        time = float(u.t.middle + (difference(u, s, turn, u.t).middle / (u.slope + s.slope).middle))
+    inside = inner(setting, u), turn - inner(setting, s)
     first, last = max(one.low for one in inside), min(one.high for one in inside)
     times = [f"{float((share * first + (10 - share) * last) / 10):.15f}" for share in (9, 1)]
     found = {"depth": setting.depth, "unstable": records[0], "stable": records[1], "turns": turns, "times": times}
