@@ -8,7 +8,7 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from fractions import Fraction
 from functools import partial
-from math import pi
+from math import floor, pi
 
 from scipy.optimize import brentq, minimize_scalar
 from tqdm import tqdm
@@ -18,7 +18,7 @@ from duffing import Duffing, homoclinic_tangency, splitting
 from .check import CERTIFICATES, check, load
 from .first import check_first, intervals, prove_interval
 from .oscillator import Oscillator
-from .rational import decimal
+from .rational import decimal, rounded
 from .theorems import prove
 
 WORKERS = 2
@@ -37,7 +37,7 @@ def statement(certificate):
     """The theorem of a certificate in one line."""
     low, high, least = check(certificate)
     p, (low, high) = certificate["oscillator"]["p"], (decimal(end, DIGITS) for end in (low, high))
-    return f"p = {p}: {low} < mu_t < {high}; x_s - x_u > {float(least):.1e} at the lower end"
+    return f"p = {p}: {low} < mu_t < {high}; x_s - x_u > {rounded(least, floor):.1e} at the lower end"
 
 
 def find(p):

@@ -13,9 +13,10 @@ from random import Random
 
 from .cover import falling, shared
 from .oscillator import NotProved, Oscillator
-from .pieces import UNIT, Setting, factor, flown, piece
-from .rational import period, read
-from .theorems import FINE, transverse
+from .pieces import UNIT, Setting, curve, factor, flown, one_orbit, piece
+from .rational import period, read, written
+from .saddle import RADIUS
+from .theorems import FINE, saddle_orbit, transverse
 
 CERTIFICATES = Path(__file__).parent / "certificates"
 
@@ -30,7 +31,7 @@ def check(certificate, sample=10, seed=0):
 
     Returns (mu_low, mu_high, least gap) as Fractions.
     """
-    osc = oscillator(certificate)
+    osc, saddle = oscillator(certificate), certificate["saddle"]
     low, high = Fraction(certificate["low"]), Fraction(certificate["high"])
     if not 0 < low < high:
         raise NotProved(f"low = {float(low)}, high = {float(high)}: they must be in this order")
@@ -39,8 +40,16 @@ def check(certificate, sample=10, seed=0):
     above, below = certificate["above"], certificate["below"]
     for side, name in sides(Setting(osc, high, **FINE)):
         flown_within(side, above[name])
+    found = saddle_orbit(Setting(osc, high, **FINE))
+    for name in ("x", "v", "stretch", "slope"):
+        within(found[name], saddle[name], f"the saddle orbit's {name}")
     tasks = [(side, record) for side, name in sides(Setting(osc, low)) for record in below[name]]
     wide = Setting(osc, (low + high) / 2, (high - low) / 2)
+    for one in (Setting(osc, high, **FINE), wide):
+        one_orbit(one)
+    for i, name in enumerate("xv"):
+        if not read(saddle[name]).distance(read(written(curve(wide).saddle.z[i, 0]))) < RADIUS / 20:
+            raise NotProved(f"the saddle orbit's {name} is not near that of the bracket's middle")
     for side, pieces in zip((wide, wide.reversed()), certificate["between"]["pieces"], strict=True):
         covers(side, pieces)
         tasks += [(side, record) for record in pieces]
@@ -57,8 +66,8 @@ def sides(setting):
 
 def oscillator(certificate):
     """The Oscillator of a certificate."""
-    values = dict(certificate["oscillator"])
-    return Oscillator(int(values.pop("p")), **{name: Fraction(value) for name, value in values.items()})
+    p, *values = (certificate["oscillator"][name] for name in ("p", "alpha", "omega", "delta", "gamma"))
+    return Oscillator(int(p), *map(Fraction, values))
 
 
 def covers(setting, records):
@@ -82,6 +91,7 @@ def check_below(setting, found):
 
 def separated(setting, both):
     """The gaps of all pairs of pieces, of their records (unstable, stable), that share a phase: each positive."""
+    one_orbit(setting)
     unstable, stable = ([piece(record) for record in falling(records)] for records in both)
     for one in unstable + stable:
         if not one.rate.high < 0:
@@ -95,6 +105,11 @@ def separated(setting, both):
 def flown_within(setting, record):
     """Fly a piece anew and assert that it comes out within its record (ends alone: that it is a graph)."""
     for new, old in zip(flown(setting, *record[:3])[3:], record[3:], strict=False):
-        a, b = read(new), read(old)
-        if not b.low <= a.low <= a.high <= b.high:
-            raise NotProved(f"the piece {record[:3]}: flown anew it is at {new}, not within {old}")
+        within(new, old, f"the piece {record[:3]}, flown anew,")
+
+
+def within(new, old, what):
+    """Assert that the interval of one pair of strings lies within that of another."""
+    a, b = read(new), read(old)
+    if not b.low <= a.low <= a.high <= b.high:
+        raise NotProved(f"{what} is at {new}, not within {old}")

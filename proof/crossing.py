@@ -6,7 +6,7 @@ from fractions import Fraction
 from flint import arb, arb_mat, arb_poly
 
 from .lohner import enclose, growth, step
-from .oscillator import NotProved, around, ball, drive, force, stiffness, taylor
+from .oscillator import ZERO, NotProved, around, ball, drive, force, stiffness, taylor
 from .rational import fraction
 
 LONGEST = Fraction(40)  # half periods that a flight may take
@@ -75,10 +75,12 @@ def _keeps_its_sign(osc, now, after, held):
         raise NotProved(f"v keeps its sign: v = {held.v.str(5)}, F = {F.str(5)}")
 
 
-def to_phase(osc, now, turn, orders):
-    """The set at the phase turn * pi."""
+def to_phase(osc, now, turn, orders, most=None):
+    """The set at the phase turn * pi; asserted, where `most` is given, that |x| is less than it on the way."""
     while now.turn < turn:
-        now, _ = advance(osc, now, orders, turn - now.turn)
+        now, held = advance(osc, now, orders, turn - now.turn)
+        if most is not None and not abs(held.x) < most:
+            raise NotProved(f"|x| < {most.str(5)} near the saddle orbit: x = {held.x.str(5)}")
     return now
 
 
@@ -89,17 +91,19 @@ def to_crossing(osc, now, orders):
     and the zero is one. Raises NotProved.
     """
     well = (-ball(osc.delta) / ball(osc.gamma)).sqrt()
-    whole, beyond = osc, replace(osc, sign=1)
+    beyond, falling = replace(osc, sign=1), False
     while now.turn < LONGEST:
-        osc = beyond if now.box()[0] > well else whole  # v > 0 there until the crossing
+        if now.box()[0] > well and now.box()[1] > 0:
+            osc = beyond  # v > 0 from here to the crossing
         after, held = advance(osc, now, orders, LONGEST)
         if not held.x > -well:
             raise NotProved(f"a solution may go over to the left: x = {held.x.str(5)}")
-        if not (held.v > 0 or held.x < well):
+        falling = falling or not (held.v > 0 or held.x < well)
+        if falling:
             if not force(osc, held.x, held.v, now.box()[2], _phases(osc, now, after)) < 0:
                 raise NotProved(f"F < 0 before the crossing, at x = {held.x.str(5)}, v = {held.v.str(5)}")
             late = _newton(osc, now)
-            if late <= ball(after.turn - now.turn) * arb.pi() / ball(osc.omega):
+            if 0 < late <= ball(after.turn - now.turn) * arb.pi() / ball(osc.omega):
                 landed, _ = step(osc, now, late, orders, (now.turn, late))
                 crossings = _land(osc, landed, 0), _land(osc, landed, 1)
                 if not crossings[0].x > well:
@@ -139,7 +143,8 @@ def _land(osc, now, part):
         raise NotProved(f"one crossing within beta = {beta.str(5)}: v = {v.str(5)}, F = {fall.str(5)}")
     tau = -v / fall
     pull, damping = stiffness(osc, held.x, held.v)
-    rate = arb_mat([[0, 1, 0], [-pull, -damping, (now.phase(osc) + ball(osc.omega) * tau).cos()], [0, 0, 0]])
+    phases = now.phase(osc) + ball(osc.omega) * tau.union(ZERO)
+    rate = arb_mat([[0, 1, 0], [-pull, -damping, phases.cos()], [0, 0, 0]])
     derivative = now.derivative() + tau * rate * growth(osc, held, beta) * now.derivative()
     t = now.phase(osc) / ball(osc.omega) + tau
     x = x + tau * v.union(arb(0))

@@ -6,7 +6,7 @@ from flint import arb, arb_mat
 
 from .crossing import to_crossing, to_phase
 from .lohner import solution_set
-from .oscillator import NotProved, around
+from .oscillator import NotProved, around, ball
 from .saddle import ORDERS, Saddle, columns, saddle
 
 
@@ -34,7 +34,7 @@ def local_curve(osc, mu, spread, rest, r):
     """
     base = saddle(osc, mu, spread)
     start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), 0)
-    end = to_phase(osc, start, 1, ORDERS)
+    end = to_phase(osc, start, 1, ORDERS, (-ball(osc.delta) / ball(osc.gamma)).sqrt())
     M = base.frame.inv() * -columns(end.derivative(), 0, 2)
     a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))
     least = M[0, 0].abs_lower()
@@ -45,6 +45,7 @@ def local_curve(osc, mu, spread, rest, r):
         ("the cone is mapped into itself", c + d * L < L * (least - b * L)),
         ("vectors of the cone are stretched", least - b * L > 1),
         ("the cone lies in the box", L < 1),
+        ("the half map exchanges the branches", M[0, 0] < 0 and base.frame[0, 0] > 0),
         ("graphs of the cone draw together", d + b * L < 1),
     ):
         if not holds:
@@ -72,8 +73,8 @@ def _start(base, xi, whole, middle, turn):
 class Flight:
     """A piece of the manifold where it crosses v = 0.
 
-    t, x : of the piece's middle at mu; time : of the whole; slope : dx/dt along the piece; by_mu : dx/dmu at fixed t;
-    rate : dt/dxi.
+    t, x : of the piece's middle at mu; time : of the whole; slope : dx/dt along the piece; rate : dt/dxi;
+    by_mu : holds (x - x_m - S (t - t_m)) / (mu' - mu) at any mu' and point of the piece, with a slope S of the piece.
     """
 
     t: arb
@@ -97,4 +98,5 @@ def fly(curve, low, high, turn=0, orders=(16, 10)):
     if not rate < 0:
         raise NotProved(f"the piece is no graph over the phase: dt/dxi = {rate.str(5)}")
     slope = -u_x * whole.F / u_v
+    # by_mu from balls that vary by themselves: first mu at fixed xi, then xi at fixed mu, where the slope is another
     return Flight(middle.t, middle.x, whole.t, slope, V[0, 2] + slope * V[1, 2] / whole.F, rate)

@@ -92,8 +92,9 @@ def force(osc, x, v, mu, phase):
 def friction(osc, v):
     """v |v|^(p-1) and its derivative, v in a ball; not v**p, which is no number where a ball holds 0."""
     if osc.p == 2:
-        size = osc.sign * v if osc.sign else abs(v)
-        return v * size, 2 * size
+        if osc.sign:
+            return osc.sign * v * v, 2 * osc.sign * v
+        return (v * abs(v)).union(ZERO), 2 * abs(v)  # with what a step leaves out that computes without friction
     return (v, ONE) if osc.p == 1 else (v * v * v, 3 * v * v)
 
 

@@ -8,11 +8,12 @@ flown to v = 0 by itself, so that they can be flown on several cores, and any of
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from flint import arb, ctx
+from flint import arb, arb_mat, ctx
 
 from .manifold import fly, local_curve
-from .oscillator import Oscillator, ball
+from .oscillator import NotProved, Oscillator, ball
 from .rational import Fraction, Interval, point, read, written
+from .saddle import close
 
 UNIT = 2**40
 BITS = 96
@@ -70,8 +71,17 @@ def factor(setting):
     return written(curve(setting).factor)
 
 
+def one_orbit(setting):
+    """Assert that both manifolds belong to one saddle orbit: that of the reversed oscillator is its mirror image."""
+    with ctx.workprec(BITS):
+        z, back = (curve(side).saddle.z for side in (setting, setting.reversed()))
+        close(z, arb_mat([[back[0, 0]], [-back[1, 0]]]))
+
+
 def flown(setting, turn, low, high):
     """The record of a piece: its turn, its ends and six [middle, radius] pairs, rounded outward. Raises NotProved."""
+    if turn not in (0, 1) or not (type(low) is type(high) is int and 0 < low <= high <= UNIT):
+        raise NotProved(f"the piece {turn}, {low}, {high}: must be of turn 0 or 1, with whole 0 < low <= high <= 2^40")
     with ctx.workprec(BITS):
         here = curve(setting)
         flight = fly(here, here.r * low / UNIT, here.r * high / UNIT, turn, setting.orders)

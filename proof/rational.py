@@ -28,6 +28,10 @@ class Interval:
     def middle(self):
         return (self.low + self.high) / 2
 
+    def distance(self, other):
+        """The greatest distance of two numbers of the intervals."""
+        return max(self.high - other.low, other.high - self.low)
+
     @property
     def radius(self):
         return (self.high - self.low) / 2
@@ -63,6 +67,12 @@ def read(pair):
     """The Interval of two decimal strings [middle, radius]."""
     middle, radius = map(Fraction, pair)
     return Interval(middle - radius, middle + radius)
+
+
+def rounded(value, towards):
+    """A positive fraction to two digits as float, towards : floor or ceil."""
+    exponent = floor(log10(value)) - 1
+    return float(f"{towards(value / Fraction(10) ** exponent)}e{exponent}")
 
 
 def decimal(value, digits):

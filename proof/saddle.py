@@ -57,16 +57,25 @@ def saddle(osc, mu, spread=NOTHING):
     return Saddle(mu, spread, z + held, _slope(osc, mu, spread, (z, inverse, drift)), frame)
 
 
-def _slope(osc, mu, spread, start=None):
+def _slope(osc, mu, spread, start):
     """dz/dmu for each forcing amplitude of mu + spread; for p = 2, where it varies more, part by part."""
     if osc.p == 2 and spread.rad() > WIDE:
-        quarter = (spread.rad() / 2).upper()
-        first, last = (_slope(osc, (mu + sign * quarter).mid(), around(1.01 * quarter)) for sign in (-1, 1))
-        return arb_mat([[first[i, 0].union(last[i, 0])] for i in (0, 1)])
-    z, inverse, drift = start or _newton(osc, mu)
+        quarter, slopes = (spread.rad() / 2).upper(), []
+        for part in ((mu + sign * quarter).mid() for sign in (-1, 1)):
+            near = _newton(osc, part)
+            slopes.append(_slope(osc, part, around(1.01 * quarter), near))
+            close(near[0] + slopes[-1] * (mu - part), start[0])
+        return arb_mat([[slopes[0][i, 0].union(slopes[1][i, 0])] for i in (0, 1)])
+    z, inverse, drift = start
     near = _fixed(osc, z, mu, spread, drift, inverse)
     _, slope, by_mu = half_map(osc, z, mu, (near[0, 0], near[1, 0], spread), drift)
     return drift + (ONE - slope).inv() * (by_mu - drift)
+
+
+def close(z, other):
+    """Assert that two points on saddle orbits of one forcing amplitude are so close that the orbits are the same."""
+    if not all(abs(z[i, 0] - other[i, 0]) < RADIUS / 2 for i in (0, 1)):
+        raise NotProved(f"one saddle orbit: {z[0, 0].str(9)} and {other[0, 0].str(9)}")
 
 
 def _newton(osc, mu):
@@ -88,6 +97,8 @@ def _fixed(osc, z, mu, spread, drift, inverse):
     held = _krawczyk(osc, z, mu, spread, drift, inverse, box)
     if not all(box[i, 0].contains_interior(held[i, 0]) for i in (0, 1)):
         raise NotProved(f"Krawczyk: the box of radius {RADIUS} has an image of {held[0, 0].str(3)}")
+    if not all(held[i, 0].contains(0) for i in (0, 1)):
+        raise NotProved(f"Krawczyk: the image {held[0, 0].str(3)} of the box does not hold its middle")
     for _ in range(4):  # what is fixed in a box lies in the box's image
         held = _krawczyk(osc, z, mu, spread, drift, inverse, held)
     return held

@@ -78,6 +78,8 @@ def thin(setting, time):
 def transverse(setting, found):
     """Assert a transverse intersection in what `above` found: x_s - x_u changes its sign, its slope does not."""
     u, s = piece(found["unstable"]), piece(found["stable"])
+    if type(found["turns"]) is not int:
+        raise NotProved(f"turns = {found['turns']!r}: must be a whole number")
     turn = period(setting.osc.omega) * point(found["turns"])
     ends = [point(Fraction(time)) for time in found["times"]]
     for end in ends:

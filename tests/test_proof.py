@@ -4,6 +4,7 @@ import copy
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from math import ceil, floor
 
 import numpy as np
 import pytest
@@ -14,14 +15,15 @@ from scipy.integrate import solve_ivp
 import duffing
 from proof import lohner, oscillator
 from proof.check import check, check_below, covers, load
+from proof.check import oscillator as oscillator_of
 from proof.crossing import advance, to_phase
 from proof.first import check_first, intervals
 from proof.lohner import solution_set
 from proof.manifold import fly, local_curve
 from proof.oscillator import NotProved, Oscillator, around, force, stiffness
-from proof.pieces import BITS, Setting, difference, flown, gap, piece
+from proof.pieces import BITS, UNIT, Setting, difference, flown, gap, piece
 from proof.rational import Fraction as Rational
-from proof.rational import Interval, decimal, period, point, read, written
+from proof.rational import Interval, decimal, period, point, read, rounded, written
 from proof.saddle import ZERO, saddle
 from proof.theorems import FINE, thin, transverse
 
@@ -80,6 +82,42 @@ def test_exchanged_forcing_amplitudes_are_refused():
     wrong["low"], wrong["high"] = wrong["high"], wrong["low"]
     with pytest.raises(NotProved, match="in this order"):
         check(wrong)
+
+
+@pytest.mark.parametrize("turns", ["499/100", 4.99, True])
+def test_an_intersection_of_points_at_different_phases_is_refused(turns):
+    wrong = load("p1")
+    wrong["above"]["turns"] = turns
+    with pytest.raises(NotProved, match="whole number"):
+        check(wrong)
+
+
+def test_another_saddle_orbit_than_that_of_the_certificate_is_refused():
+    for name, value in (("x", ["-0.5", "1e-20"]), ("v", ["0.5", "1e-20"]), ("slope", ["7", "1e-9"])):
+        wrong = load("p1")
+        wrong["saddle"][name] = value
+        with pytest.raises(NotProved, match=f"saddle orbit's {name}"):
+            check(wrong)
+
+
+def test_a_certificate_of_another_forcing_or_exponent_is_refused():
+    for name in ("low", "high"):
+        wrong = load("p1")
+        wrong[name] = str(Fraction(wrong[name]) * (1 + Fraction(1, 10**9)))
+        with pytest.raises(NotProved, match="not within"):
+            check(wrong)
+    wrong = load("p1")
+    wrong["oscillator"]["p"] = "2"
+    with pytest.raises(NotProved):
+        check(wrong)
+    wrong["oscillator"] |= {"p": "1", "direction": "-1"}
+    assert oscillator_of(wrong) == Oscillator(1)
+
+
+@pytest.mark.parametrize("ends", [(2, 1, 2), (0, 0, 1), (0, 2, 1), (0, 1, 8 * UNIT), (0, 1.0, 2)])
+def test_a_piece_off_the_local_curve_is_refused(ends):
+    with pytest.raises(NotProved, match="must be of turn"):
+        flown(Setting(OSC, Fraction("0.075")), *ends)
 
 
 @pytest.mark.parametrize("side", ["unstable", "stable"])
@@ -368,6 +406,17 @@ def test_a_written_ball_holds_the_ball():
         assert held.low <= Fraction(str(float(ball.mid()))) + Fraction(1, 10**15)
         ends = [Fraction(int(m)) * Fraction(2) ** int(e) for m, e in (ball.lower().man_exp(), ball.upper().man_exp())]
         assert held.low <= ends[0] <= ends[1] <= held.high
+
+
+def test_numbers_are_rounded_outward_to_two_digits():
+    for value in (Fraction(3817, 10**15), Fraction(1, 3), Fraction(25)):
+        low, high = rounded(value, floor), rounded(value, ceil)
+        assert (
+            Fraction(low) <= value * (1 + Fraction(1, 10**15)) and Fraction(high) * (1 + Fraction(1, 10**15)) >= value
+        )
+        assert high - low <= float(value) / 10 and f"{low:.1e}" == f"{float(f'{low:.1e}'):.1e}"
+    assert f"{rounded(Fraction(3817, 10**15), floor):.1e}" == "3.8e-12"
+    assert f"{rounded(Fraction(3817, 10**15), ceil):.1e}" == "3.9e-12"
 
 
 def test_the_period_is_between_its_rational_bounds():
