@@ -13,7 +13,7 @@ from random import Random
 
 from .cover import falling, shared
 from .oscillator import NotProved, Oscillator
-from .pieces import UNIT, Setting, curve, factor, flown, one_orbit, piece
+from .pieces import UNIT, Setting, curve, factor, flown, piece
 from .rational import period, read, written
 from .saddle import RADIUS
 from .theorems import FINE, saddle_orbit, transverse
@@ -45,8 +45,6 @@ def check(certificate, sample=10, seed=0):
         within(found[name], saddle[name], f"the saddle orbit's {name}")
     tasks = [(side, record) for side, name in sides(Setting(osc, low)) for record in below[name]]
     wide = Setting(osc, (low + high) / 2, (high - low) / 2)
-    for one in (Setting(osc, high, **FINE), wide):
-        one_orbit(one)
     for i, name in enumerate("xv"):
         if not read(saddle[name]).distance(read(written(curve(wide).saddle.z[i, 0]))) < RADIUS / 20:
             raise NotProved(f"the saddle orbit's {name} is not near that of the bracket's middle")
@@ -91,7 +89,6 @@ def check_below(setting, found):
 
 def separated(setting, both):
     """The gaps of all pairs of pieces, of their records (unstable, stable), that share a phase: each positive."""
-    one_orbit(setting)
     unstable, stable = ([piece(record) for record in falling(records)] for records in both)
     for one in unstable + stable:
         if not one.rate.high < 0:

@@ -3,7 +3,7 @@
 from bisect import bisect_left
 
 from .oscillator import NotProved
-from .pieces import factor, first_pieces, flown, gap, one_orbit, piece
+from .pieces import factor, first_pieces, flown, gap, piece
 from .rational import period, point, read
 
 FINEST = 2**12  # a piece is not halved below this many units
@@ -77,7 +77,6 @@ def cover(setting, width=20, each=map, tick=lambda: None, most=5000):
 
     width : the first pieces' ends differ by a part in it; most : pieces at the end.
     """
-    one_orbit(setting)
     sides = [setting, setting.reversed()]
     records = [domain(side, width, each, tick) for side in sides]
     turn = period(setting.osc.omega)

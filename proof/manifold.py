@@ -7,7 +7,7 @@ from flint import arb, arb_mat
 from .crossing import to_crossing, to_phase
 from .lohner import solution_set
 from .oscillator import NotProved, around, ball
-from .saddle import ORDERS, Saddle, columns, saddle
+from .saddle import ORDERS, Saddle, columns
 
 
 @dataclass(frozen=True)
@@ -26,14 +26,13 @@ class Curve:
     factor: arb
 
 
-def local_curve(osc, mu, spread, rest, r):
-    """The Curve of an oscillator within r; mu, r : exact balls; rest : where in mu + spread its middle is. NotProved.
+def local_curve(osc, base, rest, r):
+    """The Curve of an oscillator with the Saddle `base`; r : exact ball; rest : where the middle of mu is. NotProved.
 
     With M the derivative of the half map over the box |xi|, |eta| <= r, [[a, b], [c, d]] in the frame: the cone
     |eta| <= L |xi| lies in the box, is mapped into itself and stretched: then the graph transform works.
     """
-    base = saddle(osc, mu, spread)
-    start = _start(base, arb(0), (around(r), around(r), spread), (0, 0, 0), 0)
+    start = _start(base, arb(0), (around(r), around(r), base.spread), (0, 0, 0), 0)
     end = to_phase(osc, start, 1, ORDERS, (-ball(osc.delta) / ball(osc.gamma)).sqrt())
     M = base.frame.inv() * -columns(end.derivative(), 0, 2)
     a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))

@@ -4,7 +4,7 @@ The equation is unchanged by (x, v, t) -> (-x, -v, t + pi / omega). A fixed poin
 is therefore an orbit of the forcing's period with x(t + pi / omega) = -x(t). Krawczyk's test finds it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from flint import arb, arb_mat
 
@@ -13,11 +13,12 @@ from .lohner import solution_set
 from .oscillator import NotProved, around
 
 ORDERS = (20, 16)
-WIDE = 2e-4  # half an interval of forcing amplitudes that is divided
+WIDE = 1e-4  # half an interval of forcing amplitudes that is divided
 RADIUS = 1e-4  # of the box that is proved to hold one fixed point
 ZERO = arb_mat(3, 3)
 NOTHING = arb(0)
 ONE = arb_mat([[1, 0], [0, 1]])
+MIRROR, EXCHANGE = arb_mat([[1, 0], [0, -1]]), arb_mat([[0, 1], [1, 0]])
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,10 @@ class Saddle:
     z: arb_mat
     slope: arb_mat
     frame: arb_mat
+
+    def reversed(self):
+        """The same orbit backward in time, of the reversed oscillator: its mirror image, with the frame exchanged."""
+        return replace(self, z=MIRROR * self.z, slope=MIRROR * self.slope, frame=MIRROR * self.frame * EXCHANGE)
 
 
 def half_map(osc, z, mu, spread, drift):
@@ -58,8 +63,8 @@ def saddle(osc, mu, spread=NOTHING):
 
 
 def _slope(osc, mu, spread, start):
-    """dz/dmu for each forcing amplitude of mu + spread; for p = 2, where it varies more, part by part."""
-    if osc.p == 2 and spread.rad() > WIDE:
+    """dz/dmu for each forcing amplitude of mu + spread; where that is wide, part by part, which is sharper."""
+    if spread.rad() > WIDE:
         quarter, slopes = (spread.rad() / 2).upper(), []
         for part in ((mu + sign * quarter).mid() for sign in (-1, 1)):
             near = _newton(osc, part)

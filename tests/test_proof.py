@@ -191,14 +191,14 @@ def test_at_the_higher_forcing_the_pieces_of_the_intersection_are_not_apart():
 
 
 def test_a_piece_that_is_too_wide_is_named():
-    curve = local_curve(OSC, arb("0.075").mid(), arb(0), arb(0), arb(2) ** -13)
+    curve = local_curve(OSC, saddle(OSC, arb("0.075").mid()), arb(0), arb(2) ** -13)
     with pytest.raises(NotProved, match=r"F < 0|graph over the phase|first-order enclosure|crossing"):
         fly(curve, arb(2) ** -15, arb(2) ** -14)
 
 
 def test_a_local_box_that_is_too_large_is_named():
     with pytest.raises(NotProved, match=r"\|a\| >="):
-        local_curve(OSC, arb("0.075").mid(), arb(0), arb(0), arb(2) ** -5)
+        local_curve(OSC, saddle(OSC, arb("0.075").mid()), arb(0), arb(2) ** -5)
 
 
 def test_pieces_that_do_not_reach_far_enough_are_named():
@@ -443,6 +443,15 @@ def test_the_saddle_orbit_of_an_interval_of_forcing_holds_those_of_its_ends():
         for i in (0, 1):
             at = wide.z[i, 0] + sign * arb("0.001") * wide.slope[i, 0]
             assert at.lower() - 1e-12 < orbit.state[i] < at.upper() + 1e-12
+
+
+@EACH_P
+def test_the_saddle_orbit_backward_in_time_is_the_mirror_image(p):
+    osc, mu = Oscillator(p), arb("0.05").mid()
+    mirrored, found = saddle(osc, mu).reversed(), saddle(osc.reversed(), mu)
+    for ours, other in ((mirrored.z, found.z), (mirrored.slope, found.slope)):
+        assert all(ours[i, 0].overlaps(other[i, 0]) and ours[i, 0].rad() < 1e-9 for i in (0, 1))
+    assert all(abs(mirrored.frame[i, j] - found.frame[i, j]) < 1e-12 for i in (0, 1) for j in (0, 1))
 
 
 def test_the_intervals_of_the_first_theorem_join_from_zero_to_the_bracket():
