@@ -13,7 +13,7 @@ from mpmath import iv
 from scipy.integrate import solve_ivp
 
 import duffing
-from proof import lohner, oscillator
+from proof import crossing, lohner, oscillator
 from proof.check import check, check_below, covers, load
 from proof.check import oscillator as oscillator_of
 from proof.crossing import advance, to_phase
@@ -386,6 +386,19 @@ def test_no_step_takes_a_sign_of_v_that_it_does_not_keep(v):
             assert box.lower() - 1e-8 < values.min() and values.max() < box.upper() + 1e-8
         signs.add(int(np.sign(states[0, 1])))
     assert signs == {-1, 1}
+
+
+def test_a_guess_that_v_keeps_its_sign_is_not_taken_for_a_proof(monkeypatch):
+    osc = Oscillator(2, alpha=2)
+    monkeypatch.setattr(crossing, "_known_sign", lambda osc, now: (replace(osc, sign=-1), Fraction(40)))
+    start = solution_set((arb(0.45), arb(-0.02), arb(0.1)), (0, 0, 0), (0, 0, 0), lohner_one(), (0, 0, 0), ZERO)
+    after, _ = advance(osc, start, (16, 10), Fraction(40))
+    x, v = solve_ivp(
+        lambda t, y: [y[1], 0.1 * np.cos(t) - 2 * y[1] * abs(y[1]) + y[0] - y[0] ** 3],
+        (0, float(after.turn) * np.pi), [0.45, -0.02], "DOP853", rtol=1e-12, atol=1e-14,
+    ).y[:, -1]  # fmt: skip
+    for box, value in zip(after.box(), (x, v), strict=False):
+        assert abs(float(box.mid()) - value) < float(box.rad()) + 1e-9
 
 
 @EACH_P
