@@ -47,8 +47,9 @@ def find(p):
     with ProcessPoolExecutor(WORKERS) as pool, tqdm(desc=f"p = {p}", unit=" pieces") as bar:
         each = partial(pool.map, chunksize=4)
         certificate = prove(Oscillator(p), low, high, crossing_phase(p, high), each, bar.update)
+    found = statement(certificate)  # checked before it is written
     write(f"p{p}", certificate)
-    return statement(certificate)
+    return found
 
 
 def crossing_phase(p, mu):

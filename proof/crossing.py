@@ -90,8 +90,7 @@ def to_crossing(osc, now, orders):
     Asserted: on every step v > 0 or x is within the wells; from the first step where that fails F < 0, so that v falls
     and the zero is one. Raises NotProved.
     """
-    well = (-ball(osc.delta) / ball(osc.gamma)).sqrt()
-    beyond, falling = replace(osc, sign=1), False
+    well, beyond, falling = osc.well, replace(osc, sign=1), False
     while now.turn < LONGEST:
         if now.box()[0] > well and now.box()[1] > 0:
             osc = beyond  # v > 0 from here to the crossing

@@ -14,7 +14,7 @@ WIDTH, MOST = 18, 1500  # of the first pieces, and how many pieces an interval m
 
 
 def intervals(low):
-    """Pairs of forcing amplitudes that join from 0 to `low`; nearer to it the intervals are shorter by a third each."""
+    """Pairs of forcing amplitudes that join from 0 to `low`; at the end each is a third of the last."""
     parts = [Fraction(n, 100) for n in (1, *range(2, 95, 3))] + [1 - Fraction(5, 100 * 3**k) for k in range(15)]
     ends = [Fraction(0), *(Fraction(round(low * part * 10**14), 10**14) for part in parts), low]
     return list(pairwise(ends))

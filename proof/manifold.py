@@ -6,7 +6,7 @@ from flint import arb, arb_mat
 
 from .crossing import to_crossing, to_phase
 from .lohner import solution_set
-from .oscillator import NotProved, around, ball
+from .oscillator import NotProved, around
 from .saddle import ORDERS, Saddle, columns
 
 
@@ -33,7 +33,7 @@ def local_curve(osc, base, rest, r):
     |eta| <= L |xi| lies in the box, is mapped into itself and stretched: then the graph transform works.
     """
     start = _start(base, arb(0), (around(r), around(r), base.spread), (0, 0, 0), 0)
-    end = to_phase(osc, start, 1, ORDERS, (-ball(osc.delta) / ball(osc.gamma)).sqrt())
+    end = to_phase(osc, start, 1, ORDERS, osc.well)
     M = base.frame.inv() * -columns(end.derivative(), 0, 2)
     a, b, c, d = (M[i, j].abs_upper() for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)))
     least = M[0, 0].abs_lower()

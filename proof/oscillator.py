@@ -57,6 +57,12 @@ class Oscillator:
         """(damping, delta, gamma) as balls; the damping carries the direction of time."""
         return _balls(self.direction * self.alpha, self.delta, self.gamma, ctx.prec)
 
+    @property
+    def well(self):
+        """Where the right well is deepest, x = sqrt(-delta / gamma), as ball."""
+        _, delta, gamma = self.coefficients
+        return (-delta / gamma).sqrt()
+
 
 def exact(name, value):
     """A rational number from an int, a Fraction or a decimal string; a float is refused, since it is another number."""
